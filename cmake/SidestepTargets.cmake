@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The two ways in which something is added: a module of the library, and a program.
+
+# Warnings of our own code only; MRPT's and the other packages' headers come as SYSTEM.
+add_library(sidestep_warnings INTERFACE)
+target_compile_options(sidestep_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  -Wold-style-cast -Woverloaded-virtual -Wconversion -Wno-sign-conversion -Wdouble-promotion -Wformat=2
+  $<$<BOOL:${SIDESTEP_WERROR}>:-Werror>)
+
+# add_module(NAME): all of libs/NAME becomes part of libsidestep.
+function(add_module name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/libs/${name}/*.cpp)
+  target_sources(sidestep PRIVATE ${sources})
+endfunction()
+
+# What the library needs and offers, in one place.
+function(configure_library target)
+  set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  add_library(sidestep::sidestep ALIAS ${target})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/libs> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sidestep>)
+  target_compile_definitions(${target} PRIVATE SIDESTEP_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${target}
+    PUBLIC mrpt::obs mrpt::maps mrpt::topography Eigen3::Eigen
+    PRIVATE $<BUILD_INTERFACE:sidestep_warnings> yaml-cpp nlohmann_json::nlohmann_json ZLIB::ZLIB Threads::Threads)
+endfunction()
+
+# add_app(NAME): the program built from apps/NAME/*.cpp, installed beside the others.
+function(add_app name)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/${name}/*.cpp)
+  add_executable(${name} ${sources})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/apps)
+  target_link_libraries(${name} PRIVATE sidestep sidestep_warnings CLI11::CLI11 nlohmann_json::nlohmann_json)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set_property(GLOBAL APPEND PROPERTY SIDESTEP_APPS ${name})
+endfunction()

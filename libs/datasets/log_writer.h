@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <mrpt/obs/obs_frwds.h>
+
+#include <memory>
+#include <string>
+
+namespace sidestep {
+
+/// Writes an observations-only rawlog: gzip level 1, a comment first (program, parameters, seed) and one last with the
+/// count, so that a cut log is known as cut. Flushed at least every second of log time (zlib full flush), so that what a
+/// killed program wrote can be read up to there, by MRPT's tools too.
+class LogWriter {
+ public:
+  /// @throws DatasetError if the file cannot be created.
+  LogWriter(const std::string& file, const std::string& header);
+  /// Closes without an end marker if `close()` was not called: the log then counts as cut short.
+  ~LogWriter();
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
+
+  /// @throws DatasetError if the disk is full.
+  void write(const mrpt::obs::CObservation& observation);
+  /// Writes the end marker and closes. @throws DatasetError if what was written did not reach the disk.
+  void close();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sidestep
