@@ -32,7 +32,8 @@ File temporaryFile(const std::string& content) {
 }
 
 pid_t spawnGnuplot(int in, int out) {
-  std::array<std::string, 3> words{"gnuplot", "-d", "-"};
+  // Read as a named file, gnuplot stops at the first error; from a pipe or `-` it would go on.
+  std::array<std::string, 3> words{"gnuplot", "-d", "/dev/stdin"};
   std::array<char*, 4> argv{words[0].data(), words[1].data(), words[2].data(), nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -79,10 +80,10 @@ std::string gnuplotQuoted(const std::string& text) {
   return quoted + "'";
 }
 
-void runGnuplot(const std::string& script) {
+void runGnuplot(const std::string& script, const std::string& what) {
   const File in = temporaryFile(script), out = temporaryFile("");
   const int status = waitFor(spawnGnuplot(fileno(in.get()), fileno(out.get())));
-  if (status != 0) fail("gnuplot failed: " + lastLine(out.get()));
+  if (status != 0) fail(what + ": gnuplot failed: " + lastLine(out.get()));
 }
 
 }  // namespace sidestep

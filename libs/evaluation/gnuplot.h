@@ -5,9 +5,9 @@
 
 namespace sidestep {
 
-/// Runs a gnuplot script, without the user's own settings.
+/// Runs a gnuplot script, without the user's own settings. `what` is what it makes, for the error's text.
 /// @throws Error (internal) if gnuplot is not installed, or with the last line that it wrote.
-void runGnuplot(const std::string& script);
+void runGnuplot(const std::string& script, const std::string& what);
 
 /// `text` as a gnuplot string that means just these characters.
 std::string gnuplotQuoted(const std::string& text);

@@ -134,8 +134,8 @@ std::string settings(const TrajectoryFigure& figure, const Box& box, const std::
          "set size ratio -1\nset clip one\nset clip two\n"
          "set border 3 lc rgb '#404040'\nset tics nomirror out\n"
          "set grid back lt 1 lc rgb '#e4e4e4' lw 1\n"
-         "set xlabel 'x [m]'\nset ylabel 'y [m]'\n"
-         "set key outside below center horizontal noenhanced samplen 3 spacing 1.2\n" +
+         "set format '%.10g'\nset xlabel 'x [m]' offset 0,0.4\nset ylabel 'y [m]'\n"
+         "set key outside below center horizontal Left reverse noenhanced samplen 3 spacing 1.2\n" +
          range("x", box.x_min, box.x_max) + range("y", box.y_min, box.y_max);
 }
 
@@ -150,8 +150,8 @@ void addEnds(Script& script, const TrajectoryFigure& figure) {
   std::string start, end;
   appendPoint(start, points.front());
   appendPoint(end, points.back());
-  script.add(start, "with points pt 7 ps 1.8 lc rgb '#009e73'", "start");
-  script.add(end, "with points pt 5 ps 1.5 lc rgb '#d55e00'", "end");
+  script.add(start, "with points pt 7 ps 2.6 lc rgb '#009e73'", "start");
+  script.add(end, "with points pt 5 ps 1.1 lc rgb '#d55e00'", "end");
 }
 
 /// Colours of Okabe and Ito, told apart with any colour vision. The dashed truth lies on top, so that both lines show
@@ -160,7 +160,7 @@ void addLines(Script& script, const TrajectoryFigure& figure, const Box& box) {
   const bool fixes_out = !holdsAll(box, figure.fixes), odometry_out = !holdsAll(box, figure.odometry);
   std::string ellipses;
   for (const auto& ellipse : figure.ellipses) appendEllipse(ellipses, ellipse);
-  script.add(figure.fixes, "with points pt 7 ps 0.4 lc rgb '#b8b8b8'",
+  script.add(figure.fixes, "with points pt 7 ps 0.6 lc rgb '#a8a8a8'",
              fixes_out ? "GPS fixes (some outside the picture)" : "GPS fixes");
   script.add(figure.odometry, "with lines lw 1.5 lc rgb '#e69f00'",
              odometry_out ? "odometry (leaves the picture)" : "odometry");
@@ -189,7 +189,7 @@ void drawTrajectory(const TrajectoryFigure& figure, const std::string& png_file)
   Script script;
   addLines(script, figure, box);
   addEnds(script, figure);
-  runGnuplot(script.text(settings(figure, box, png_file)));
+  runGnuplot(script.text(settings(figure, box, png_file)), png_file);
 }
 
 }  // namespace sidestep
