@@ -51,6 +51,7 @@ void setInitialPose(const std::string& text, StartParams& start) {
 
 void LocalizeConfig::visit(ParamVisitor& v) {
   v.choice("filter", filter, {"ekf", "odometry"}, "the estimator");
+  v.integer("seed", seed, {0, 2e9}, "of the random numbers, for filters that draw any");
   v.texts("sensors", sensors, "of odometry, imu, gps, beacons; empty: those that the log has");
   v.choice("align", align, {"auto", "none", "first", "se2"},
            "how the estimate is laid onto the truth before errors are taken; auto: none where both frames are known");
@@ -74,7 +75,9 @@ LocalizeConfig effectiveConfig(const LocalizeOptions& o) {
   if (!o.config_file.empty()) readYaml(o.config_file, [&](ParamVisitor& v) { c.visit(v); });
   if (!o.filter.empty()) c.filter = o.filter;
   if (!o.align.empty()) c.align = o.align;
+  if (o.seed) c.seed = *o.seed;
   if (!o.sensors.empty()) c.sensors = split(o.sensors);
+  if (c.filter == "odometry") c.sensors = {"odometry"};
   checkSensors(c.sensors, o.sensors.empty() ? o.config_file + ": sensors" : "--sensors");
   if (!o.initial_pose.empty()) setInitialPose(o.initial_pose, c.robot.start);
   c.robot.odometry.check();

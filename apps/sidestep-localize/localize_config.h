@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace sidestep {
 /// All that a YAML for sidestep-localize may hold: the robot, its sensors, its filter.
 struct LocalizeConfig {
   std::string filter = "ekf";
+  int seed = 1;
   std::vector<std::string> sensors;  // empty: whatever the log has of odometry, imu, gps, and beacons if known
   LocalizerParams robot;
   EkfParams ekf;
@@ -32,7 +34,7 @@ struct LocalizeOptions {
   std::vector<std::string> labels;
   double from_s = 0, to_s = 1e18;
   bool overwrite = false, quiet = false, write_config = false, no_picture = false;
-  int seed = 0;
+  std::optional<int> seed;
 };
 
 /// The file's parameters with the command line's on top.
