@@ -51,6 +51,8 @@ class LogReader {
   const LogEnd& end() const;
   /// label -> reason -> count of what was screened out.
   const std::map<std::string, std::map<std::string, uint64_t>>& refused() const;
+  /// Text of the comment that opens a log of our own (program, parameters, seed), once the first entry was asked for.
+  const std::string& header() const;
   /// Bytes of the file consumed and its size, for a progress bar.
   uint64_t bytesConsumed() const;
   uint64_t fileSize() const;

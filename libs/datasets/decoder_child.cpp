@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datasets/decoder_child.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+
+#include "datasets/object_archive.h"
+
+namespace sidestep {
+namespace {
+
+constexpr int kPipe = 3;
+constexpr int kFile = 4;
+
+/// CPU time after which the kernel ends this process (SIGPROF, default action); 0 = never.
+void setCpuLimit(double seconds) {
+  itimerval timer{};
+  double whole = 0;
+  const double part = std::modf(seconds, &whole);
+  timer.it_value.tv_sec = static_cast<time_t>(whole);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(part * 1e6);
+  setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
+uint64_t addressSpaceInUse() {
+  unsigned long pages = 0;
+  FILE* file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr) return 0;
+  const bool ok = std::fscanf(file, "%lu", &pages) == 1;
+  std::fclose(file);
+  return ok ? pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+/// Relative to what is mapped already, which under a sanitizer are terabytes of shadow.
+void limitMemory(size_t bytes) {
+  const uint64_t limit = addressSpaceInUse() + bytes;
+  const rlimit as{limit, limit}, no_core{0, 0};
+  setrlimit(RLIMIT_AS, &as);
+  setrlimit(RLIMIT_CORE, &no_core);
+}
+
+/// The child dies of a broken pipe if the parent does, and of its CPU limit if it loops; so it needs no parent-death
+/// signal, which would also fire when only the thread that opened the log ends. Ctrl-C is the parent's to handle.
+void resetSignals() {
+  for (const int signal : {SIGPIPE, SIGPROF, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGCHLD})
+    std::signal(signal, SIG_DFL);
+  std::signal(SIGINT, SIG_IGN);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+/// Leaves open nothing but the pipe and the file: an inherited pipe of another reader would hide its child's end.
+void arrangeFiles(int fd, int pipe_fd) {
+  const int pipe_copy = fcntl(pipe_fd, F_DUPFD, 10), file_copy = fcntl(fd, F_DUPFD, 10);
+  dup2(pipe_copy, kPipe);
+  dup2(file_copy, kFile);
+  const int null = open("/dev/null", O_RDWR);
+  for (int std_fd : {0, 1, 2}) dup2(null, std_fd);
+  close_range(5, ~0u, 0);
+}
+
+class RecordSink {
+ public:
+  explicit RecordSink(SharedBatch& batch) : batch_(batch) {}
+
+  void put(RecordKind kind, uint64_t consumed, const char* bytes, size_t length) {
+    const RecordHead head{kind, 0, length, consumed};
+    const size_t total = sizeof(head) + length;
+    if (batch_.used + total > SharedBatch::kCapacity) flush();
+    if (total > SharedBatch::kCapacity) {
+      send(&head, sizeof(head));
+      send(bytes, length);
+      return;
+    }
+    char* at = batch_.data + batch_.used;
+    std::memcpy(at, &head, sizeof(head));
+    std::memcpy(at + sizeof(head), bytes, length);
+    std::atomic_signal_fence(std::memory_order_release);
+    batch_.used = batch_.used + total;
+  }
+
+  void flush() {
+    batch_.sending = 1;
+    send(batch_.data, batch_.used);
+    batch_.used = 0;
+    batch_.sending = 0;
+  }
+
+ private:
+  static void send(const void* from, size_t n) {
+    const char* at = static_cast<const char*>(from);
+    while (n > 0) {
+      const ssize_t done = write(kPipe, at, n);
+      if (done < 0 && errno == EINTR) continue;
+      if (done < 0) _exit(0);  // nobody listens any more
+      at += done;
+      n -= static_cast<size_t>(done);
+    }
+  }
+  SharedBatch& batch_;
+};
+
+std::unique_ptr<ByteSource> openSource(const DecodeRange& range) {
+  if (range.plain) return std::make_unique<SliceSource>(kFile, range.begin, range.end);
+  return std::make_unique<GzipSource>(kFile);
+}
+
+/// Decodes until the end; an exception leaves from here.
+void decodeObjects(ByteSource& source, RecordingArchive& archive, RecordSink& sink, double seconds) {
+  for (;;) {
+    setCpuLimit(seconds);
+    if (!archive.startObject()) return;
+    archive.ReadObject();
+    setCpuLimit(0);  // the wait for the reader is not the file's fault
+    sink.put(RecordKind::kObject, source.consumed(), archive.bytes().data(), archive.bytes().size());
+  }
+}
+
+std::string decodeAndExplain(ByteSource& source, RecordSink& sink, const DecodeLimits& limits) {
+  RecordingArchive archive(source);
+  try {
+    decodeObjects(source, archive, sink, limits.seconds_per_object);
+    return "";
+  } catch (const std::bad_alloc&) {
+    return "decoding it needs more than " + std::to_string(limits.memory_bytes >> 20) + " MiB";
+  } catch (const std::exception& error) {
+    return archive.failure().empty() ? reasonOf(error) : archive.failure();
+  }
+}
+
+}  // namespace
+
+void runDecoderChild(int fd, int pipe_fd, SharedBatch& batch, const DecodeRange& range, const DecodeLimits& limits) {
+  try {
+    resetSignals();
+    arrangeFiles(fd, pipe_fd);
+    limitMemory(limits.memory_bytes);
+    const auto source = openSource(range);
+    RecordSink sink(batch);
+    const std::string reason = decodeAndExplain(*source, sink, limits);
+    setCpuLimit(0);
+    const RecordKind kind = reason.empty() ? RecordKind::kEnd : RecordKind::kFailure;
+    sink.put(kind, source->consumed(), reason.data(), reason.size());
+    sink.flush();
+  } catch (...) {
+    _exit(1);
+  }
+  _exit(0);
+}
+
+}  // namespace sidestep
