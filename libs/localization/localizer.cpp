@@ -113,7 +113,6 @@ void Localizer::imu(int stream, double time_s, const mrpt::obs::CObservationIMU&
   }
   auto m = headingMeasurement(params_.imu, time_s, *reading.heading_rad);
   m.stream = stream;
-  m.sensor = 1;
   add(m);
 }
 
@@ -137,7 +136,6 @@ void Localizer::position(int stream, double time_s, double x, double y) {
 void Localizer::beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o) {
   for (auto& m : beaconMeasurements(params_.beacons, time_s, o)) {
     ++use(stream).read;
-    m.sensor = 2 + m.sensor % 14;
     m.stream = stream;
     add(m);
   }
