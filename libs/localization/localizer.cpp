@@ -34,13 +34,12 @@ void LocalizerParams::visit(ParamVisitor& v) {
   v.section("beacons", "ranges to known beacons", [this](ParamVisitor& w) { beacons.visit(w); });
 }
 
-Localizer::Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, bool expect_positions,
-                     double heading_offset_sd)
+Localizer::Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, const Expectation& expect)
     : params_(params),
       filter_(std::move(filter)),
       motion_(params.odometry, params.imu, params.zero_velocity),
       gps_(params.gps),
-      start_(params.start, expect_positions, heading_offset_sd) {}
+      start_(params.start, expect.positions, expect.heading, expect.heading_offset_sd) {}
 
 int Localizer::addStream(const std::string& label) {
   sensors_.push_back({});
