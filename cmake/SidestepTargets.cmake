@@ -28,9 +28,10 @@ endfunction()
 
 # add_app(NAME): the program built from apps/NAME/*.cpp, installed beside the others.
 function(add_app name)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/${name}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/${name}/*.cpp ${PROJECT_SOURCE_DIR}/apps/common/*.cpp)
   add_executable(${name} ${sources})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/apps)
+  target_compile_definitions(${name} PRIVATE SIDESTEP_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE sidestep sidestep_warnings CLI11::CLI11 nlohmann_json::nlohmann_json)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   set_property(GLOBAL APPEND PROPERTY SIDESTEP_APPS ${name})

@@ -10,7 +10,7 @@
 namespace sidestep {
 
 /// A line of points that thins itself: past `limit` points every second one is dropped, so memory stays bounded and the
-/// whole length stays covered.
+/// whole length stays covered. The first and the newest point are always among them.
 class ThinnedLine {
  public:
   explicit ThinnedLine(size_t limit = 4000) : limit_(limit) {}
@@ -34,6 +34,8 @@ struct TrajectoryFigure {
 };
 
 /// Draws the figure with gnuplot: equal scales, axes labelled in metres, a legend outside the plot.
+/// The view holds truth, estimate and odometry; odometry that runs off by more than three times the extent of the others
+/// is cut, and the legend says so, as it does for fixes outside. Same figure, same bytes.
 /// @throws Error (internal) with gnuplot's message if it cannot be run.
 void drawTrajectory(const TrajectoryFigure& figure, const std::string& png_file);
 

@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sidestep-localize/localize_run.h"
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/obs/CObservationBeaconRanges.h>
+#include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include <chrono>
+#include <cstdio>
+#include <map>
+
+#include "common/program.h"
+#include "datasets/log_reader.h"
+#include "datasets/log_writer.h"
+#include "evaluation/metrics_json.h"
+#include "sidestep-localize/truth_comparison.h"
+
+namespace sidestep {
+namespace {
+
+double steadySeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+mrpt::obs::CObservationRobotPose asObservation(const Estimate& e) {
+  mrpt::obs::CObservationRobotPose o;
+  o.sensorLabel = "estimate";
+  o.timestamp = mrpt::Clock::fromDouble(e.time_s);
+  o.pose.mean.setFromValues(e.belief.mean.x, e.belief.mean.y, 0, e.belief.mean.phi, 0, 0);
+  o.pose.cov.setZero();
+  const auto& P = e.belief.covariance;
+  const int at[3] = {0, 1, 3};  // x, y, yaw of (x, y, z, yaw, pitch, roll)
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) o.pose.cov(at[i], at[j]) = P(i, j);
+  return o;
+}
+
+/// The ellipses of the picture, some 20 to 40 along whatever length.
+class Ellipses {
+ public:
+  void add(const Estimate& e) {
+    if (seen_++ % stride_ != 0) return;
+    kept_.push_back({e.belief.mean, e.belief.covariance.topLeftCorner<2, 2>()});
+    if (kept_.size() < 40) return;
+    for (size_t i = 0; 2 * i < kept_.size(); ++i) kept_[i] = kept_[2 * i];
+    kept_.resize(20);
+    stride_ *= 2;
+  }
+  const std::vector<TrajectoryFigure::Ellipse>& kept() const { return kept_; }
+
+ private:
+  std::vector<TrajectoryFigure::Ellipse> kept_;
+  size_t seen_ = 0, stride_ = 1;
+};
+
+/// One run: the log in, the estimates out.
+class Run {
+ public:
+  Run(const LocalizeOptions& options, const LocalizeConfig& config)
+      : options_(options),
+        config_(config),
+        folder_(options.output, options.overwrite),
+        reader_(options.log, readerOptions(options, config)),
+        localizer_(config.robot, makeEkf(config.ekf), config.uses("gps"), config.ekf.heading_offset_sd),
+        truth_(options.ground_truth, config),
+        writer_(folder_.file("estimate.rawlog"), commandLine()),
+        tum_(folder_.file("trajectory.tum")) {}
+
+  ExitCode go();
+
+ private:
+  static LogReaderOptions readerOptions(const LocalizeOptions& o, const LocalizeConfig&) {
+    LogReaderOptions r;
+    r.labels = labelMap(o.labels);
+    r.from_s = o.from_s;
+    r.to_s = o.to_s;
+    return r;
+  }
+  void handle(const LogEntry& e);
+  void feed(const LogEntry& e);
+  void take();
+  int streamOf(const LogEntry& e);
+  Alignment alignment() const;
+  LocalizationMetrics metrics() const;
+  void draw(const LocalizationMetrics& m) const;
+  void checkSensors();
+  void warn(const std::string& line);
+  bool used(const std::string& sensor) const;
+
+  const LocalizeOptions& options_;
+  const LocalizeConfig& config_;
+  OutputFolder folder_;
+  LogReader reader_;
+  Localizer localizer_;
+  TruthComparison truth_;
+  LogWriter writer_;
+  TumWriter tum_;
+  TrajectoryFigure figure_;
+  Ellipses ellipses_;
+  std::map<std::string, int> streams_;
+  std::map<std::string, SensorKind> kinds_;
+  std::vector<std::string> warnings_;
+  double begin_s_ = steadySeconds(), first_s_ = 0, last_s_ = 0;
+  uint64_t estimates_ = 0;
+};
+
+void Run::warn(const std::string& line) {
+  warnings_.push_back(line);
+  std::fprintf(stderr, "sidestep-localize: %s\n", line.c_str());
+}
+
+int Run::streamOf(const LogEntry& e) {
+  const auto it = streams_.find(e.label);
+  if (it != streams_.end()) return it->second;
+  kinds_[e.label] = e.kind;
+  return streams_[e.label] = localizer_.addStream(e.label);
+}
+
+void Run::feed(const LogEntry& e) {
+  using namespace mrpt::obs;
+  const bool wanted = config_.uses(word(e.kind));
+  if (!wanted) return;
+  if (e.kind == SensorKind::kOdometry) {
+    localizer_.odometry(streamOf(e), e.time_s, dynamic_cast<const CObservationOdometry&>(*e.observation));
+  } else if (e.kind == SensorKind::kImu) {
+    localizer_.imu(streamOf(e), e.time_s, dynamic_cast<const CObservationIMU&>(*e.observation));
+  } else if (e.kind == SensorKind::kBeacons) {
+    localizer_.beacons(streamOf(e), e.time_s, dynamic_cast<const CObservationBeaconRanges&>(*e.observation));
+  } else if (e.kind == SensorKind::kGps) {
+    if (const auto* gps = dynamic_cast<const CObservationGPS*>(e.observation.get()))
+      localizer_.gps(streamOf(e), e.time_s, *gps);
+    else if (const auto* pose = dynamic_cast<const CObservationRobotPose*>(e.observation.get()))
+      localizer_.position(streamOf(e), e.time_s, pose->pose.mean.x(), pose->pose.mean.y());
+  }
+}
+
+void Run::handle(const LogEntry& e) {
+  if (first_s_ == 0) first_s_ = e.time_s;
+  last_s_ = e.time_s;
+  if (e.kind == SensorKind::kEstimate) return;  // a log of ours, localized again: the new estimate replaces the old
+  writer_.write(*e.observation);
+  if (e.kind == SensorKind::kGroundTruth) {
+    if (const auto* p = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(e.observation.get()))
+      truth_.push(e.time_s, {p->pose.mean.x(), p->pose.mean.y(), p->pose.mean.yaw()});
+    return;
+  }
+  feed(e);
+  take();
+}
+
+void Run::take() {
+  for (const auto& e : localizer_.takeEstimates()) {
+    writer_.write(asObservation(e));
+    tum_.write(e.time_s, e.belief.mean);
+    figure_.estimate.add(e.belief.mean.x, e.belief.mean.y);
+    figure_.odometry.add(e.odometry.x, e.odometry.y);
+    ellipses_.add(e);
+    truth_.add(e);
+    ++estimates_;
+  }
+  for (const auto& p : localizer_.takeFixes()) figure_.fixes.add(p.x, p.y);
+}
+
+bool Run::used(const std::string& sensor) const {
+  for (const auto& s : localizer_.sensors())
+    if (word(kinds_.at(s.label)) == sensor && s.used > 0) return true;
+  return false;
+}
+
+/// Where estimate and truth are in one known frame nothing may be moved; else the filter is judged by shape.
+Alignment Run::alignment() const {
+  if (config_.align == "none") return Alignment::kNone;
+  if (config_.align == "first") return Alignment::kFirstPose;
+  if (config_.align == "se2") return Alignment::kLeastSquares;
+  const bool gps = used("gps"), beacons = used("beacons");
+  if (!gps && !beacons) return Alignment::kFirstPose;
+  const bool known = (gps && config_.robot.gps.datum_given) || (beacons && config_.truth_frame_given);
+  return known ? Alignment::kNone : Alignment::kLeastSquares;
+}
+
+LocalizationMetrics Run::metrics() const {
+  LocalizationMetrics m;
+  m.duration_s = last_s_ - first_s_;
+  m.wall_s = steadySeconds() - begin_s_;
+  m.peak_memory_mb = peakMemoryMb();
+  m.estimate = truth_.estimateErrors(alignment());
+  m.odometry = truth_.odometryErrors();
+  m.truth_source = options_.ground_truth.empty() ? (m.estimate ? "log" : "none") : options_.ground_truth;
+  for (const auto& s : localizer_.sensors()) {
+    auto& out = m.sensors[s.label];
+    out.read = s.read;
+    out.used = s.used;
+    out.refused = s.refused;
+    out.nis_dof = s.nis_dof;
+    if (s.nis_count > 0) out.mean_nis = s.nis_sum / static_cast<double>(s.nis_count);
+  }
+  for (const auto& [label, reasons] : reader_.refused())
+    for (const auto& [reason, n] : reasons) {
+      m.sensors[label].refused[reason] += n;
+      m.sensors[label].read += n;
+    }
+  m.partial = reader_.end().damaged || interrupted();
+  m.warnings = warnings_;
+  return m;
+}
+
+void Run::draw(const LocalizationMetrics& m) const {
+  if (options_.no_picture) return;
+  TrajectoryFigure figure = figure_;
+  figure.title = options_.log.substr(options_.log.find_last_of('/') + 1) + ": " + config_.filter;
+  if (m.estimate) figure.truth = truth_.truthLine(*m.estimate);
+  figure.ellipses = ellipses_.kept();
+  drawTrajectory(figure, folder_.file("trajectory.png"));
+}
+
+void Run::checkSensors() {
+  std::string labels;
+  for (const auto& [label, kind] : kinds_) labels += (labels.empty() ? "" : ", ") + label;
+  const std::string hint = " (used: " + (labels.empty() ? std::string("nothing") : labels) +
+                           "); see sidestep-rawlog info, and --label";
+  if (estimates_ == 0) throw DatasetError::missing(options_.log + ": no odometry to localize with" + hint);
+  for (const auto& sensor : config_.sensors)
+    if (!used(sensor)) throw DatasetError::missing(options_.log + ": nothing of sensor '" + sensor + "' was usable" + hint);
+}
+
+ExitCode Run::go() {
+  folder_.writeConfiguration([this](ParamVisitor& v) { const_cast<LocalizeConfig&>(config_).visit(v); });
+  {
+    ProgressBar bar("localizing", options_.quiet);
+    uint64_t count = 0;
+    while (!interrupted()) {
+      const auto entry = reader_.next();
+      if (!entry) break;
+      handle(*entry);
+      if (++count % 256 == 0)
+        bar.update(static_cast<double>(reader_.bytesConsumed()) / std::max(1.0, static_cast<double>(reader_.fileSize())));
+    }
+  }
+  localizer_.finish();
+  take();
+  truth_.finish();
+  writer_.close();
+  tum_.close();
+  if (reader_.end().damaged) warn(reader_.end().message);
+  auto m = metrics();
+  if (estimates_ > 0) draw(m);
+  m.wall_s = steadySeconds() - begin_s_;
+  writeMetrics(m, folder_.file("metrics.json"));
+  if (interrupted()) return ExitCode::kInterrupted;
+  if (!reader_.end().damaged || estimates_ > 0) checkSensors();
+  std::fputs(errorTable(m).c_str(), stdout);
+  return reader_.end().damaged ? ExitCode::kInputCorrupt : ExitCode::kDone;
+}
+
+}  // namespace
+
+ExitCode localize(const LocalizeOptions& options) {
+  const LocalizeConfig config = effectiveConfig(options);
+  if (options.write_config) {
+    std::fputs(writeYaml([&](ParamVisitor& v) { const_cast<LocalizeConfig&>(config).visit(v); }).c_str(), stdout);
+    return ExitCode::kDone;
+  }
+  if (options.log.empty()) throw ConfigError("no LOG given; for example sidestep-localize run.rawlog -o out");
+  return Run(options, config).go();
+}
+
+}  // namespace sidestep

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/ekf.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace sidestep {
+namespace {
+constexpr int kOffset = 3, kBias = 4, kScale = 5;
+
+/// P(chi^2_k <= q), k = 1, 2, 3 in closed form.
+double chiSquareCdf(double q, int dof) {
+  if (dof == 2) return 1 - std::exp(-q / 2);
+  const double one = std::erf(std::sqrt(q / 2));
+  return dof == 1 ? one : one - std::sqrt(2 * q / M_PI) * std::exp(-q / 2);
+}
+}  // namespace
+
+double chiSquareQuantile(double probability, int dof) {
+  double low = 0, high = 1;
+  while (chiSquareCdf(high, dof) < probability && high < 1e4) high *= 2;
+  for (int i = 0; i < 100; ++i) {
+    const double mid = 0.5 * (low + high);
+    (chiSquareCdf(mid, dof) < probability ? low : high) = mid;
+  }
+  return high;
+}
+
+const char* word(Correction::Reason reason) {
+  switch (reason) {
+    case Correction::Reason::kAccepted:
+      return "accepted";
+    case Correction::Reason::kReset:
+      return "accepted_after_reset";
+    case Correction::Reason::kGated:
+      return "outside_gate";
+    case Correction::Reason::kNotFinite:
+      return "not_finite";
+    case Correction::Reason::kTooLate:
+      return "too_late";
+    case Correction::Reason::kNotObservable:
+      return "not_usable";
+  }
+  return "";
+}
+
+void EkfParams::visit(ParamVisitor& v) {
+  v.flag("gate", gate, "refuse measurements whose innovation is outside the chi-square gate");
+  v.number("gate_probability", gate_probability, {0.5, 0.999999999}, "", "share of good measurements the gate lets in");
+  v.number("gate_patience_s", gate_patience_s, {0, 1e9}, "s",
+           "a sensor refused for this long in a row is believed again, and the covariance opened to it");
+  v.angle("heading_offset_sd_deg", heading_offset_sd, {0, 360}, "sd of the IMU's unknown heading offset; 0 = none");
+  v.angle("heading_offset_walk_deg", heading_offset_walk, {0, 90}, "how much that offset drifts in a second");
+  v.angle("yaw_rate_bias_sd_deg", yaw_rate_bias_sd, {0, 90}, "sd of the gyro's unknown bias (deg/s); 0 = none");
+  v.angle("yaw_rate_bias_walk_deg", yaw_rate_bias_walk, {0, 90}, "how much that bias drifts in a second (deg/s)");
+  v.number("wheel_scale_sd", wheel_scale_sd, {0, 1}, "", "sd of the wheels' unknown scale error; 0 = none");
+  v.number("wheel_scale_walk", wheel_scale_walk, {0, 1}, "1/sqrt(s)", "how much that scale drifts in a second");
+}
+
+template <int N>
+Ekf<N>::Ekf(const EkfParams& params) : params_(params) {
+  for (int dof = 1; dof <= 3; ++dof) gate_[static_cast<size_t>(dof)] = chiSquareQuantile(params.gate_probability, dof);
+}
+
+template <int N>
+void Ekf<N>::start(const PoseBelief& belief) {
+  x_.setZero();
+  P_.setZero();
+  x_.template head<3>() << belief.mean.x, belief.mean.y, belief.mean.phi;
+  P_.template topLeftCorner<3, 3>() = belief.covariance;
+  if constexpr (N > 3) {
+    P_(kOffset, kOffset) = params_.heading_offset_sd * params_.heading_offset_sd;
+    P_(kBias, kBias) = params_.yaw_rate_bias_sd * params_.yaw_rate_bias_sd;
+    P_(kScale, kScale) = params_.wheel_scale_sd * params_.wheel_scale_sd;
+  }
+  refused_since_.fill(0);
+}
+
+template <int N>
+void Ekf<N>::predict(const MotionStep& motion) {
+  if (!(std::isfinite(motion.distance_m) && std::isfinite(motion.turn_rad) && motion.dt_s >= 0)) return;
+  if (motion.still) return;
+  double ds = motion.distance_m, turn = motion.turn_rad;
+  if constexpr (N > 3) {
+    ds *= 1 + x_(kScale);
+    if (motion.turn_from_gyro) turn -= x_(kBias) * motion.dt_s;
+  }
+  const double beta = x_(2) + 0.5 * turn, c = std::cos(beta), s = std::sin(beta);
+  x_(0) += ds * c;
+  x_(1) += ds * s;
+  x_(2) = mrpt::math::wrapToPi(x_(2) + turn);
+
+  // (3.9): only the first two rows of F differ from the identity (and the calibration columns).
+  Covariance F = Covariance::Identity();
+  F(0, 2) = -ds * s;
+  F(1, 2) = ds * c;
+  if constexpr (N > 3) {
+    F(0, kScale) = motion.distance_m * c;
+    F(1, kScale) = motion.distance_m * s;
+    if (motion.turn_from_gyro) {
+      F(0, kBias) = 0.5 * ds * s * motion.dt_s;
+      F(1, kBias) = -0.5 * ds * c * motion.dt_s;
+      F(2, kBias) = -motion.dt_s;
+    }
+  }
+  Eigen::Matrix<double, 3, 2> W;  // (3.8), by distance and turn instead of v and w
+  W << c, -0.5 * ds * s, s, 0.5 * ds * c, 0, 1;
+  const Eigen::Vector2d q(motion.distance_var, motion.turn_var);
+  P_ = (F * P_ * F.transpose()).eval();
+  P_.template topLeftCorner<3, 3>() += W * q.asDiagonal() * W.transpose();
+  if constexpr (N > 3) {
+    P_(kOffset, kOffset) += params_.heading_offset_walk * params_.heading_offset_walk * motion.dt_s;
+    P_(kBias, kBias) += params_.yaw_rate_bias_walk * params_.yaw_rate_bias_walk * motion.dt_s;
+    P_(kScale, kScale) += params_.wheel_scale_walk * params_.wheel_scale_walk * motion.dt_s;
+  }
+}
+
+template <int N>
+Correction Ekf<N>::correct(const Measurement& m) {
+  switch (m.size()) {
+    case 3:
+      return correctPose<3>(m);
+    case 2:
+      return correctPose<2>(m);
+    default:
+      return m.kind == Measurement::Kind::kStill ? correctBias(m) : correctPose<1>(m);
+  }
+}
+
+template <int N>
+template <int M>
+Correction Ekf<N>::correctPose(const Measurement& m) {
+  const Innovation in = innovation(m, pose());
+  Eigen::Matrix<double, M, 1> nu = in.nu.template head<M>();
+  Eigen::Matrix<double, M, N> H = Eigen::Matrix<double, M, N>::Zero();
+  H.template leftCols<3>() = in.H.template topRows<M>();
+  if constexpr (N > 3) {
+    if (m.heading_has_offset && m.kind != Measurement::Kind::kPosition && m.kind != Measurement::Kind::kRange) {
+      H(M - 1, kOffset) = 1;
+      nu(M - 1) = mrpt::math::wrapToPi(nu(M - 1) - x_(kOffset));
+    }
+  }
+  return update<M>(m, nu, H);
+}
+
+template <int N>
+Correction Ekf<N>::correctBias(const Measurement& m) {
+  if constexpr (N > 3) {
+    Eigen::Matrix<double, 1, N> H = Eigen::Matrix<double, 1, N>::Zero();
+    H(kBias) = 1;
+    return update<1>(m, Eigen::Matrix<double, 1, 1>(m.z(0) - x_(kBias)), H);
+  } else {
+    return {Correction::Reason::kNotObservable, 0, 1};
+  }
+}
+
+template <int N>
+bool Ekf<N>::relaxGate(const Measurement& m) {
+  double& since = refused_since_[static_cast<size_t>(m.sensor) % kSensors];
+  if (since == 0) since = m.time_s;
+  if (m.time_s - since < params_.gate_patience_s) return false;
+  since = 0;
+  return true;
+}
+
+template <int N>
+template <int M>
+Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1>& nu,
+                          const Eigen::Matrix<double, M, N>& H) {
+  const Eigen::Matrix<double, M, M> R = m.R.template topLeftCorner<M, M>();
+  Eigen::Matrix<double, M, M> S = H * P_ * H.transpose() + R;
+  Eigen::Matrix<double, M, M> S_inverse = S.inverse();
+  Correction result{Correction::Reason::kAccepted, nu.dot(S_inverse * nu), M};
+  if (!std::isfinite(result.nis) || result.nis < 0) return {Correction::Reason::kNotFinite, 0, M};
+  if (params_.gate && result.nis > gate_[M]) {
+    if (!relaxGate(m)) {
+      result.reason = Correction::Reason::kGated;
+      return result;
+    }
+    // The filter is wrong about itself: open the covariance until this innovation is an ordinary one.
+    result.reason = Correction::Reason::kReset;
+    P_ *= result.nis / M;
+    S = H * P_ * H.transpose() + R;
+    S_inverse = S.inverse();
+  } else {
+    refused_since_[static_cast<size_t>(m.sensor) % kSensors] = 0;
+  }
+  const Eigen::Matrix<double, N, M> K = P_ * H.transpose() * S_inverse;  // (3.3)
+  const State x = x_ + K * nu;                                           // (2.13)
+  const Covariance A = Covariance::Identity() - K * H;
+  const Covariance P = A * P_ * A.transpose() + K * R * K.transpose();
+  if (!x.allFinite() || !P.allFinite()) return {Correction::Reason::kNotFinite, 0, M};
+  x_ = x;
+  x_(2) = mrpt::math::wrapToPi(x_(2));
+  P_ = 0.5 * (P + P.transpose());
+  return result;
+}
+
+template <int N>
+PoseBelief Ekf<N>::estimate() const {
+  return {pose(), P_.template topLeftCorner<3, 3>()};
+}
+
+template <int N>
+void Ekf<N>::save(std::vector<double>& out) const {
+  out.resize(N + N * N + kSensors);
+  double* p = out.data();
+  p = std::copy(x_.data(), x_.data() + N, p);
+  p = std::copy(P_.data(), P_.data() + N * N, p);
+  std::copy(refused_since_.begin(), refused_since_.end(), p);
+}
+
+template <int N>
+void Ekf<N>::restore(const std::vector<double>& state) {
+  const double* p = state.data();
+  std::copy(p, p + N, x_.data());
+  p += N;
+  std::copy(p, p + N * N, P_.data());
+  p += N * N;
+  std::copy(p, p + kSensors, refused_since_.begin());
+}
+
+template class Ekf<3>;
+template class Ekf<6>;
+
+std::unique_ptr<PoseFilter> makeEkf(const EkfParams& params) {
+  if (params.calibrates()) return std::make_unique<Ekf<6>>(params);
+  return std::make_unique<Ekf<3>>(params);
+}
+
+}  // namespace sidestep

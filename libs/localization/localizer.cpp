@@ -1,0 +1,348 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/localizer.h"
+
+#include <mrpt/math/wrap2pi.h>
+#include <mrpt/obs/CObservationBeaconRanges.h>
+#include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sidestep {
+namespace {
+
+mrpt::math::TPose2D composed(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b) {
+  const double c = std::cos(a.phi), s = std::sin(a.phi);
+  return {a.x + c * b.x - s * b.y, a.y + s * b.x + c * b.y, mrpt::math::wrapToPi(a.phi + b.phi)};
+}
+
+}  // namespace
+
+void LocalizerParams::visit(ParamVisitor& v) {
+  v.number("late_window_s", late_window_s, {0, 60}, "s", "measurements up to this late are put where they belong");
+  v.number("coast_after_s", coast_after_s, {0.01, 1e6}, "s", "odometry missing for this long is replaced by coasting");
+  v.number("coast_accel", coast_accel, {0, 100}, "m/s^2", "acceleration that coasting must allow for");
+  v.number("coast_turn_accel", coast_turn_accel, {0, 100}, "rad/s^2", "turning acceleration that it must allow for");
+  v.flag("zero_velocity", zero_velocity, "wheels at rest mean that the robot stands, and that the gyro shows its bias");
+  v.section("start", "where the robot starts", [this](ParamVisitor& w) { start.visit(w); });
+  v.section("odometry", "wheels", [this](ParamVisitor& w) { odometry.visit(w); });
+  v.section("imu", "inertial unit", [this](ParamVisitor& w) { imu.visit(w); });
+  v.section("gps", "satellite positioning", [this](ParamVisitor& w) { gps.visit(w); });
+  v.section("beacons", "ranges to known beacons", [this](ParamVisitor& w) { beacons.visit(w); });
+}
+
+Localizer::Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, bool expect_positions,
+                     double heading_offset_sd)
+    : params_(params),
+      filter_(std::move(filter)),
+      motion_(params.odometry, params.imu, params.zero_velocity),
+      gps_(params.gps),
+      start_(params.start, expect_positions, heading_offset_sd) {}
+
+int Localizer::addStream(const std::string& label) {
+  sensors_.push_back({});
+  sensors_.back().label = label;
+  return static_cast<int>(sensors_.size()) - 1;
+}
+
+void Localizer::refuse(int stream, const char* reason) { ++use(stream).refused[reason]; }
+
+// ---- sensors in ----
+
+void Localizer::odometry(int stream, double time_s, const mrpt::obs::CObservationOdometry& o) {
+  ++use(stream).read;
+  start_.begin(time_s);
+  const uint64_t index = odometry_count_++;
+  const auto step = motion_.addOdometry(time_s, o);
+  if (!step) {
+    if (index > 0) refuse(stream, "no_increment");
+    tryStart(false);
+    return;
+  }
+  ++use(stream).used;
+  if (!started_) {
+    waiting_.push_back(*step);
+    odometry_pose_ = composed(odometry_pose_, step->T_from_to);
+    start_.track(time_s, odometry_pose_);
+    tryStart(false);
+    return;
+  }
+  giveOut();
+  odometry_pose_ = composed(odometry_pose_, step->T_from_to);
+  if (step->to_s <= now_s_) return;  // all of it was coasted already
+  if (step->from_s > now_s_ + 1e-9) coastTo(step->from_s);
+  MotionStep motion = step->motion;
+  gapNoise(motion);
+  advanceTo(step->to_s, motion.part(std::min(1.0, (step->to_s - now_s_) / motion.dt_s)));
+  if (step->resting_rate) addStill(*step, stream);
+  owe(index);
+}
+
+void Localizer::gapNoise(MotionStep& motion) const {
+  const double gap = motion.dt_s;
+  if (gap <= params_.odometry.gap_s) return;
+  motion.turn_var += std::min(M_PI * M_PI, std::pow(params_.coast_turn_accel * gap, 2));
+  motion.distance_var += std::pow(0.1 * motion.distance_m, 2) + std::pow(params_.odometry.still_speed * gap, 2);
+}
+
+void Localizer::addStill(const MotionSource::Step& step, int stream) {
+  Event e;
+  e.is_motion = false;
+  e.counted = true;  // no measurement of the log
+  e.time_s = now_s_;
+  e.measurement.kind = Measurement::Kind::kStill;
+  e.measurement.time_s = now_s_;
+  e.measurement.stream = stream;
+  e.measurement.z(0) = *step.resting_rate;
+  e.measurement.R(0, 0) = params_.imu.yaw_rate_sd * params_.imu.yaw_rate_sd / std::max(step.motion.dt_s, 1e-3);
+  append(std::move(e));
+}
+
+void Localizer::imu(int stream, double time_s, const mrpt::obs::CObservationIMU& o) {
+  auto& u = use(stream);
+  ++u.read;
+  const ImuReading reading = readImu(params_.imu, o);
+  if (!reading.heading_rad && !reading.yaw_rate) return refuse(stream, "no_yaw");
+  if (reading.yaw_rate) motion_.addYawRate(time_s, *reading.yaw_rate);
+  if (!reading.heading_rad) {
+    ++u.used;
+    return;
+  }
+  auto m = headingMeasurement(params_.imu, time_s, *reading.heading_rad);
+  m.stream = stream;
+  m.sensor = 1;
+  add(m);
+}
+
+void Localizer::gps(int stream, double time_s, const mrpt::obs::CObservationGPS& o) {
+  ++use(stream).read;
+  auto m = gps_.measurement(time_s, o);
+  if (!m) return refuse(stream, "no_fix");
+  m->stream = stream;
+  fixes_.push_back({m->z.x(), m->z.y()});
+  add(*m);
+}
+
+void Localizer::position(int stream, double time_s, double x, double y) {
+  ++use(stream).read;
+  auto m = gps_.measurement(time_s, x, y);
+  m.stream = stream;
+  fixes_.push_back({x, y});
+  add(m);
+}
+
+void Localizer::beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o) {
+  for (auto& m : beaconMeasurements(params_.beacons, time_s, o)) {
+    ++use(stream).read;
+    m.sensor = 2 + m.sensor % 14;
+    m.stream = stream;
+    add(m);
+  }
+}
+
+// ---- placing in time ----
+
+void Localizer::add(const Measurement& m) {
+  if (!started_) {
+    start_.begin(m.time_s);
+    if (m.kind == Measurement::Kind::kPosition) start_.fix(m);
+    if (m.kind == Measurement::Kind::kHeading) start_.heading(m);
+    pending_.insert(std::upper_bound(pending_.begin(), pending_.end(), m,
+                                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; }),
+                    m);
+    tryStart(false);
+    return;
+  }
+  place(m);
+}
+
+void Localizer::place(const Measurement& m) {
+  if (m.time_s <= now_s_) return insertLate(m);
+  pending_.insert(std::upper_bound(pending_.begin(), pending_.end(), m,
+                                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; }),
+                  m);
+  if (m.time_s > now_s_ + params_.coast_after_s) {
+    coastTo(m.time_s);
+    owe(std::nullopt);
+  }
+}
+
+void Localizer::insertLate(const Measurement& m) {
+  if (m.time_s < base_time_s_) return refuse(m.stream, m.time_s < now_s_ - params_.late_window_s ? "too_late" : "before_start");
+  size_t i = history_.size();
+  while (i > 0 && history_[i - 1].time_s > m.time_s) --i;
+  Event e;
+  e.is_motion = false;
+  e.time_s = m.time_s;
+  e.measurement = m;
+  const bool splits = i < history_.size() && history_[i].is_motion && history_[i].motion.dt_s > 0;
+  if (splits) {
+    Event before;
+    before.time_s = m.time_s;
+    const double left = history_[i].time_s - m.time_s, whole = history_[i].motion.dt_s;
+    before.motion = history_[i].motion.part(std::clamp(1 - left / whole, 0.0, 1.0));
+    history_[i].motion = history_[i].motion.part(std::clamp(left / whole, 0.0, 1.0));
+    history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(i), std::move(before));
+    history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(e));
+  } else {
+    history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(i), std::move(e));
+  }
+  replayFrom(i);
+}
+
+void Localizer::advanceTo(double time_s, const MotionStep& step) {
+  giveOut();
+  MotionStep rest = step;
+  while (!pending_.empty() && pending_.front().time_s <= time_s) {
+    const Measurement m = pending_.front();
+    pending_.erase(pending_.begin());
+    if (m.time_s > now_s_) {
+      const double fraction = (m.time_s - now_s_) / (time_s - now_s_);
+      appendMotion(m.time_s, rest.part(fraction));
+      rest = rest.part(1 - fraction);
+    }
+    Event e;
+    e.is_motion = false;
+    e.time_s = now_s_;
+    e.measurement = m;
+    append(std::move(e));
+  }
+  if (time_s > now_s_) appendMotion(time_s, rest);
+  last_motion_ = step;
+  trimHistory();
+}
+
+void Localizer::appendMotion(double time_s, const MotionStep& step) {
+  Event e;
+  e.time_s = time_s;
+  e.motion = step;
+  append(std::move(e));
+  now_s_ = time_s;
+}
+
+void Localizer::append(Event&& event) {
+  if (!spare_states_.empty()) {
+    event.state_after = std::move(spare_states_.back());
+    spare_states_.pop_back();
+  }
+  history_.push_back(std::move(event));
+  apply(history_.back());
+}
+
+void Localizer::apply(Event& event) {
+  if (event.is_motion)
+    filter_->predict(event.motion);
+  else
+    count(event, filter_->correct(event.measurement));
+  filter_->save(event.state_after);
+}
+
+void Localizer::replayFrom(size_t index) {
+  filter_->restore(index == 0 ? base_state_ : history_[index - 1].state_after);
+  for (size_t i = index; i < history_.size(); ++i) apply(history_[i]);
+}
+
+void Localizer::count(Event& event, const Correction& c) {
+  if (event.counted) return;
+  event.counted = true;
+  auto& u = use(event.measurement.stream);
+  if (c.dof > 0 && c.reason != Correction::Reason::kNotFinite) {
+    u.nis_dof = c.dof;
+    if (c.accepted()) {
+      u.nis_sum += c.nis;
+      ++u.nis_count;
+    }
+  }
+  if (c.accepted())
+    ++u.used;
+  else
+    ++u.refused[word(c.reason)];
+}
+
+void Localizer::coastTo(double time_s) {
+  MotionStep coast;
+  coast.dt_s = time_s - now_s_;
+  const double fading = last_motion_.dt_s > 0 ? std::min(coast.dt_s, params_.coast_after_s) / last_motion_.dt_s : 0;
+  coast.distance_m = last_motion_.distance_m * fading;
+  coast.turn_rad = last_motion_.turn_rad * fading;
+  coast.distance_var = std::pow(0.5 * params_.coast_accel * coast.dt_s * coast.dt_s, 2);
+  coast.turn_var = std::min(M_PI * M_PI, std::pow(0.5 * params_.coast_turn_accel * coast.dt_s * coast.dt_s, 2));
+  const MotionStep before = last_motion_;
+  advanceTo(time_s, coast);
+  last_motion_ = before;
+}
+
+void Localizer::owe(std::optional<uint64_t> odometry_index) {
+  owed_ = true;
+  owed_index_ = odometry_index;
+}
+
+void Localizer::giveOut() {
+  if (!owed_) return;
+  owed_ = false;
+  ready_.push_back({now_s_, filter_->estimate(), odometry_pose_, owed_index_});
+}
+
+void Localizer::trimHistory() {
+  while (history_.size() > 1 && history_.front().time_s < now_s_ - params_.late_window_s) {
+    base_time_s_ = history_.front().time_s;
+    std::swap(base_state_, history_.front().state_after);
+    spare_states_.push_back(std::move(history_.front().state_after));
+    history_.pop_front();
+  }
+}
+
+// ---- the start ----
+
+void Localizer::tryStart(bool last_chance) {
+  if (started_) return;
+  if (auto s = start_.solve(last_chance)) start(*s);
+}
+
+void Localizer::start(const StartBelief& s) {
+  started_ = true;
+  filter_->start(s.belief);
+  now_s_ = base_time_s_ = s.time_s;
+  filter_->save(base_state_);
+  odometry_pose_ = s.belief.mean;
+  uint64_t index = odometry_count_ - waiting_.size();
+  if (index > 0) --index;
+  owe(index);
+  for (const auto& step : waiting_) {
+    if (step.from_s > now_s_ + 1e-9) coastTo(step.from_s);
+    advanceTo(step.to_s, step.motion);
+    odometry_pose_ = composed(odometry_pose_, step.T_from_to);
+    owe(++index);
+  }
+  waiting_.clear();
+  const auto rest = std::move(pending_);
+  pending_.clear();
+  for (const auto& m : rest) place(m);
+}
+
+void Localizer::finish() {
+  tryStart(true);
+  if (!started_) return;
+  if (!pending_.empty()) {
+    coastTo(pending_.back().time_s);
+    owe(std::nullopt);
+  }
+  giveOut();
+}
+
+std::vector<Estimate> Localizer::takeEstimates() {
+  std::vector<Estimate> out;
+  out.swap(ready_);
+  return out;
+}
+
+std::vector<mrpt::math::TPoint2D> Localizer::takeFixes() {
+  std::vector<mrpt::math::TPoint2D> out;
+  out.swap(fixes_);
+  return out;
+}
+
+}  // namespace sidestep

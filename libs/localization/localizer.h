@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <mrpt/obs/obs_frwds.h>
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "localization/motion_source.h"
+#include "localization/pose_filter.h"
+#include "localization/sensor_models.h"
+#include "localization/start_alignment.h"
+
+namespace sidestep {
+
+/// Everything that turns a robot's sensors into a pose, apart from the filter.
+struct LocalizerParams {
+  OdometryParams odometry;
+  ImuParams imu;
+  GpsParams gps;
+  BeaconParams beacons;
+  StartParams start;
+  double late_window_s = 2;
+  double coast_after_s = 1;
+  double coast_accel = 0.5;       // m/s^2
+  double coast_turn_accel = 0.3;  // rad/s^2
+  bool zero_velocity = true;
+
+  void visit(ParamVisitor& v);
+};
+
+/// A pose at one instant, as told to the user.
+struct Estimate {
+  double time_s = 0;
+  PoseBelief belief;                  ///< in the map frame
+  mrpt::math::TPose2D odometry;       ///< odometry alone, from the same start [m, rad]
+  std::optional<uint64_t> odometry_index;  ///< which odometry reading (0, 1, ...) this belongs to; none while coasting
+};
+
+/// What became of one label's measurements.
+struct SensorUse {
+  std::string label;
+  uint64_t read = 0, used = 0;
+  std::map<std::string, uint64_t> refused;  ///< by reason
+  double nis_sum = 0;
+  uint64_t nis_count = 0;
+  int nis_dof = 0;
+};
+
+/// Feeds a filter from a robot's sensors: motion from odometry (and gyro), measurements at their own times.
+///
+/// Observations come in any order within `late_window_s`. A measurement that lies between two odometry readings splits
+/// the motion; one that is late goes back to where it belongs and what followed is played again (cost: the steps of
+/// the lateness); one that is ahead waits for odometry, and if none comes for `coast_after_s` the robot is taken to go
+/// on as it did, with growing doubt. An estimate is given out for each odometry reading once the next one has come.
+/// With a position sensor and no initial pose, the start is found from the first stretch of motion (StartAlignment).
+class Localizer {
+ public:
+  /// @param expect_positions   a sensor that tells positions is in use: wait for it to find the start
+  /// @param heading_offset_sd  how well the IMU's heading is known as the robot's [rad]
+  Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, bool expect_positions,
+            double heading_offset_sd);
+
+  /// A stream of measurements; the number goes with each observation.
+  int addStream(const std::string& label);
+  void odometry(int stream, double time_s, const mrpt::obs::CObservationOdometry& o);
+  void imu(int stream, double time_s, const mrpt::obs::CObservationIMU& o);
+  void gps(int stream, double time_s, const mrpt::obs::CObservationGPS& o);
+  void position(int stream, double time_s, double x, double y);
+  void beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o);
+  /// No more observations come: what waits is processed.
+  void finish();
+
+  /// Estimates that became ready since the last call, in time order.
+  std::vector<Estimate> takeEstimates();
+  const std::vector<SensorUse>& sensors() const { return sensors_; }
+  bool started() const { return started_; }
+  /// Fixes in the map frame since the last call, for the picture.
+  std::vector<mrpt::math::TPoint2D> takeFixes();
+
+ private:
+  struct Event {
+    bool is_motion = true;
+    double time_s = 0;  ///< end of the motion, or time of the measurement
+    MotionStep motion;
+    Measurement measurement;
+    bool counted = false;
+    std::vector<double> state_after;
+  };
+  void add(const Measurement& m);
+  void place(const Measurement& m);
+  void insertLate(const Measurement& m);
+  void advanceTo(double time_s, const MotionStep& step);
+  void appendMotion(double time_s, const MotionStep& step);
+  void append(Event&& event);
+  void apply(Event& event);
+  void replayFrom(size_t index);
+  void count(Event& event, const Correction& c);
+  void refuse(int stream, const char* reason);
+  void coastTo(double time_s);
+  void owe(std::optional<uint64_t> odometry_index);
+  void gapNoise(MotionStep& motion) const;
+  void addStill(const MotionSource::Step& step, int stream);
+  void giveOut();
+  void tryStart(bool last_chance);
+  void start(const StartBelief& s);
+  void trimHistory();
+  SensorUse& use(int stream) { return sensors_[static_cast<size_t>(stream)]; }
+
+  LocalizerParams params_;
+  std::unique_ptr<PoseFilter> filter_;
+  MotionSource motion_;
+  GpsModel gps_;
+  StartAlignment start_;
+  std::vector<SensorUse> sensors_;
+  std::deque<Event> history_;
+  std::vector<Measurement> pending_;  // sorted by time
+  std::vector<Estimate> ready_;
+  std::vector<mrpt::math::TPoint2D> fixes_;
+  std::deque<MotionSource::Step> waiting_;  // motion before the start is known
+  std::vector<double> base_state_;          // state before history_.front()
+  std::vector<std::vector<double>> spare_states_;
+  double base_time_s_ = 0, now_s_ = 0;
+  MotionStep last_motion_;
+  mrpt::math::TPose2D odometry_pose_;
+  uint64_t odometry_count_ = 0;
+  bool started_ = false;
+  bool owed_ = false;  // an estimate at now_s_ has not been given out yet: measurements of this instant may still come
+  std::optional<uint64_t> owed_index_;
+};
+
+}  // namespace sidestep

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <mrpt/math/TPose2D.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "localization/measurement.h"
+#include "localization/motion.h"
+
+namespace sidestep {
+
+/// What became of a measurement.
+struct Correction {
+  enum class Reason { kAccepted, kReset, kGated, kNotFinite, kTooLate, kNotObservable };
+  Reason reason = Reason::kAccepted;
+  double nis = 0;   ///< normalized innovation squared, against the covariance before the correction
+  int dof = 0;      ///< its degrees of freedom
+  bool accepted() const { return reason == Reason::kAccepted || reason == Reason::kReset; }
+};
+
+/// The word of a reason, as metrics.json spells it: "outside_gate", "too_late", ...
+const char* word(Correction::Reason reason);
+
+/// A belief as every filter gives it: mean and covariance of (x, y, yaw).
+struct PoseBelief {
+  mrpt::math::TPose2D mean;  ///< map frame [m, rad], yaw in (-pi, pi]
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// A recursive estimator of the robot's pose in the plane.
+///
+/// Given `start`, then in time order `predict` for each stretch of motion and `correct` for each measurement that falls
+/// between two stretches. `estimate` is finite after any sequence of calls; whatever is not finite is refused. A filter
+/// never reads a clock or a file. `save` and `restore` carry the whole state, so that a measurement that comes late can
+/// be put where it belongs and what followed be played again.
+class PoseFilter {
+ public:
+  virtual ~PoseFilter() = default;
+  virtual void start(const PoseBelief& belief) = 0;
+  virtual void predict(const MotionStep& motion) = 0;
+  virtual Correction correct(const Measurement& measurement) = 0;
+  virtual PoseBelief estimate() const = 0;
+  /// State into `out`, which keeps its memory between calls.
+  virtual void save(std::vector<double>& out) const = 0;
+  virtual void restore(const std::vector<double>& state) = 0;
+};
+
+}  // namespace sidestep
