@@ -110,7 +110,8 @@ void Localizer::imu(int stream, double time_s, const mrpt::obs::CObservationIMU&
     ++u.used;
     return;
   }
-  auto m = headingMeasurement(params_.imu, time_s, *reading.heading_rad);
+  auto m = headingMeasurement(params_.imu, time_s, *reading.heading_rad, last_heading_s_ > 0 ? time_s - last_heading_s_ : 0);
+  last_heading_s_ = time_s;
   m.stream = stream;
   add(m);
 }

@@ -129,7 +129,7 @@ class Localizer {
   std::deque<MotionSource::Step> waiting_;  // motion before the start is known
   std::vector<double> base_state_;          // state before history_.front()
   std::vector<std::vector<double>> spare_states_;
-  double base_time_s_ = 0, now_s_ = 0;
+  double base_time_s_ = 0, now_s_ = 0, last_heading_s_ = 0;
   MotionStep last_motion_;
   mrpt::math::TPose2D odometry_pose_;
   uint64_t odometry_count_ = 0;
