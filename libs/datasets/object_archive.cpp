@@ -144,7 +144,8 @@ std::string bytesFromObject(const mrpt::serialization::CSerializable& object) {
 std::string reasonOf(const std::exception& error) {
   std::string text = error.what();
   const std::string key = "Message:";
-  if (const size_t at = text.find(key); at != std::string::npos) text.erase(0, at + key.size());
+  if (const size_t at = text.rfind(key); at != std::string::npos) text.erase(0, at + key.size());  // the original one
+  if (text.starts_with("  Expecting 0x00")) return "no entry begins there";
   const size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string::npos) return "unknown error";
   text = text.substr(begin, text.find_first_of("\r\n", begin) - begin);
