@@ -16,6 +16,9 @@
 #include "datasets/screening.h"
 
 namespace sidestep {
+namespace {
+constexpr size_t kMostLabels = 1000;
+}  // namespace
 
 struct LogReader::Impl {
   Impl(const std::string& name, LogReaderOptions given)
@@ -24,7 +27,7 @@ struct LogReader::Impl {
         rules(options.labels),
         stream(name, {options.memory_limit_bytes, options.seconds_per_entry}),
         sorted(options.reorder_window_s,
-               [this](const LogEntry& entry, const char* reason) { ++refused[entry.label][reason]; }) {}
+               [this](const LogEntry& entry, const char* reason) { count(entry.label, reason); }) {}
 
   std::string file;
   LogReaderOptions options;
@@ -62,7 +65,10 @@ struct LogReader::Impl {
     sorted.push(std::move(entry), bytes);
   }
 
-  void count(const std::string& label, const std::string& reason) { ++refused[label][reason]; }
+  void count(const std::string& label, const std::string& reason) {
+    const bool room = refused.size() < kMostLabels || refused.contains(label);
+    ++refused[room ? label : "(more)"][reason];
+  }
 
   void finish() {
     for (const auto& observation : unpacker.flush()) take(observation, 0);
@@ -113,6 +119,7 @@ std::optional<LogEntry> LogReader::next() {
 const LogEnd& LogReader::end() const { return impl_->end; }
 const std::map<std::string, std::map<std::string, uint64_t>>& LogReader::refused() const { return impl_->refused; }
 const std::string& LogReader::header() const { return impl_->markers.header(); }
+bool LogReader::isFrameLayout() const { return impl_->unpacker.isFrameLayout(); }
 uint64_t LogReader::bytesConsumed() const { return impl_->stream.consumed(); }
 uint64_t LogReader::fileSize() const { return impl_->stream.fileSize(); }
 

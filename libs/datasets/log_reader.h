@@ -49,10 +49,12 @@ class LogReader {
   std::optional<LogEntry> next();
 
   const LogEnd& end() const;
-  /// label -> reason -> count of what was screened out.
+  /// label -> reason -> count of what was screened out; past a thousand labels, the rest together as "(more)".
   const std::map<std::string, std::map<std::string, uint64_t>>& refused() const;
   /// Text of the comment that opens a log of our own (program, parameters, seed), once the first entry was asked for.
   const std::string& header() const;
+  /// Whether actions or sensory frames were seen, that is, the log is not observations only.
+  bool isFrameLayout() const;
   /// Bytes of the file consumed and its size, for a progress bar.
   uint64_t bytesConsumed() const;
   uint64_t fileSize() const;

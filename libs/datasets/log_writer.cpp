@@ -12,6 +12,7 @@ namespace sidestep {
 namespace {
 
 constexpr double kFlushPeriod_s = 1.0;
+constexpr size_t kFlushBytes = 64 << 10;  // where the stamps are not looked at
 
 mrpt::obs::CObservationComment comment(const std::string& text) {
   mrpt::obs::CObservationComment out;
@@ -27,6 +28,7 @@ struct LogWriter::Impl {
   GzipFile file;
   uint64_t count = 0;
   double flushed_s = -1e18;
+  size_t unflushed = 0;
 
   void flushIfDue(double time_s) {
     if (time_s >= flushed_s && time_s < flushed_s + kFlushPeriod_s) return;
@@ -45,6 +47,16 @@ LogWriter::~LogWriter() = default;
 void LogWriter::write(const mrpt::obs::CObservation& observation) {
   impl_->flushIfDue(mrpt::Clock::toDouble(observation.timestamp));
   impl_->file.write(bytesFromObject(observation));
+  ++impl_->count;
+}
+
+void LogWriter::writeStored(std::string_view bytes) {
+  impl_->unflushed += bytes.size();
+  if (impl_->unflushed > kFlushBytes) {
+    impl_->file.flush();
+    impl_->unflushed = 0;
+  }
+  impl_->file.write(bytes);
   ++impl_->count;
 }
 

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace sidestep {
 
@@ -22,6 +23,8 @@ class LogWriter {
 
   /// @throws DatasetError if the disk is full.
   void write(const mrpt::obs::CObservation& observation);
+  /// An object of any class, as another log stored it. @throws DatasetError if the disk is full.
+  void writeStored(std::string_view bytes);
   /// Writes the end marker and closes. @throws DatasetError if what was written did not reach the disk.
   void close();
 

@@ -142,7 +142,6 @@ std::vector<Measurement> beaconMeasurements(const BeaconParams& params, double t
       const auto& p = range.sensorLocationOnRobot;
       m.p_base_sensor << p.x(), p.y(), p.z();
       m.p_map_beacon << beacon[1], beacon[2], beacon[3];
-      m.sensor = range.beaconID;
       out.push_back(m);
     }
   }
