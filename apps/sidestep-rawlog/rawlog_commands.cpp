@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sidestep-rawlog/rawlog_commands.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "common/program.h"
+#include "sidestep-rawlog/rawlog_report.h"
+
+namespace sidestep {
+namespace {
+
+LogReaderOptions readerOptions(const RawlogOptions& options) {
+  LogReaderOptions out;
+  for (const std::string& text : options.labels) {
+    const size_t at = text.find('=');
+    if (at == std::string::npos || at == 0 || at + 1 == text.size())
+      throw ConfigError("--label " + text + ": wants KIND=LABEL, for example gps=GPS_RTK_REAR");
+    if (!out.labels.emplace(text.substr(0, at), text.substr(at + 1)).second)
+      throw ConfigError("--label " + text + ": " + text.substr(0, at) + " is given twice");
+  }
+  return out;
+}
+
+LogHealth examine(const RawlogOptions& options) {
+  ProgressBar bar("reading", options.quiet);
+  return examineLog(options.log, readerOptions(options), [&](uint64_t done, uint64_t size) {
+    if (interrupted()) throw Error(ExitCode::kInterrupted, "interrupted");
+    bar.update(size > 0 ? static_cast<double>(done) / static_cast<double>(size) : 1);
+  });
+}
+
+ExitCode codeOf(const LogHealth& health) { return health.end.damaged ? ExitCode::kInputCorrupt : ExitCode::kDone; }
+
+}  // namespace
+
+ExitCode showLog(const RawlogOptions& options) {
+  const LogHealth health = examine(options);
+  std::fputs((options.json ? healthJson(health) : healthText(health)).c_str(), stdout);
+  return codeOf(health);
+}
+
+ExitCode checkLog(const RawlogOptions& options) {
+  LogHealth health = examine(options);
+  if (options.json) {
+    std::fputs(healthJson(health).c_str(), stdout);
+    return codeOf(health);
+  }
+  std::printf("%s: %s\n", health.file.c_str(), word(health.verdict).c_str());
+  for (const std::string& reason : health.reasons) std::printf("  %s\n", printable(reason).c_str());
+  return codeOf(health);
+}
+
+ExitCode recoverDamagedLog(const RawlogOptions& options) {
+  std::error_code none;
+  if (std::filesystem::equivalent(options.log, options.output, none))
+    throw ConfigError(options.output + ": is the log itself; give another --output");
+  if (std::filesystem::exists(options.output, none) && !options.overwrite)
+    throw ConfigError(options.output + ": is there already; give another --output, or --overwrite");
+  const RecoveryReport report = recoverLog(options.log, options.output);
+  std::fputs((options.json ? recoveryJson(report, options.output) : recoveryText(report, options.output)).c_str(), stdout);
+  return report.entries == 0 ? ExitCode::kInputCorrupt : ExitCode::kDone;
+}
+
+}  // namespace sidestep
