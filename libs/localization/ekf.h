@@ -14,7 +14,7 @@ struct EkfParams {
   bool gate = true;
   double gate_probability = 0.9973;
   double gate_patience_s = 30;
-  double heading_offset_sd = 0;    // rad
+  double heading_offset_sd = 0.785398163397448279;  // rad
   double heading_offset_walk = 0;  // rad / sqrt(s)
   double yaw_rate_bias_sd = 0;     // rad/s
   double yaw_rate_bias_walk = 0;   // rad/s / sqrt(s)
