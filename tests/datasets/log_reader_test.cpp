@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -205,6 +206,19 @@ TEST_F(LogReaderTest, RefusesWithTheReason) {
   expectRefused(pose(kStart_s, -1), "bad covariance");
   expectRefused(pose(kStart_s, kNan), "bad covariance");
   expectRefused(beacons(kStart_s, {0}), "only bad ranges");
+}
+
+TEST_F(LogReaderTest, AFlagThatIsNeitherTrueNorFalseCountsAsNotSet) {
+  auto without = odometry(kStart_s);
+  without.hasVelocities = false;
+  const std::string with_flag = plainLog(odometry(kStart_s)), no_flag = plainLog(without);
+  std::string garbage = with_flag;  // differs from the other in the flag first
+  const auto flag = std::mismatch(with_flag.begin(), with_flag.end(), no_flag.begin()).first - with_flag.begin();
+  garbage[static_cast<size_t>(flag)] = 74;
+  store(file_, garbage);
+  const ReadLog log = readLog(file_);
+  ASSERT_EQ(log.entries.size(), 1u) << log.end.message;
+  EXPECT_FALSE(dynamic_cast<const mrpt::obs::CObservationOdometry&>(*log.entries[0].observation).hasVelocities);
 }
 
 TEST_F(LogReaderTest, StampsNear1970AreLegal) {
