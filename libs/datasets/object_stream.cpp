@@ -59,7 +59,7 @@ struct ObjectStream::Impl {
   FileDescriptor file, pipe;
   pid_t child = -1;
   SharedBatch* batch = nullptr;
-  std::string buffer;   ///< received, from `parsed` on not yet taken
+  std::string buffer;  ///< received, from `parsed` on not yet taken
   size_t parsed = 0;
   bool pipe_closed = false, ended = false;
   std::string failure;

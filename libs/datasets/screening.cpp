@@ -38,8 +38,8 @@ bool within(double limit, std::initializer_list<double> values) {
   return true;
 }
 
-/// MRPT reads a flag as the byte it finds, and old or damaged logs hold others than 0 and 1, which no bool may be. Such a
-/// flag was never set by anybody.
+/// MRPT reads a flag as the byte it finds, and old or damaged logs hold others than 0 and 1, which no bool may be. Such
+/// a flag was never set by anybody.
 void settle(std::initializer_list<bool*> flags) {
   for (bool* flag : flags) {
     unsigned char byte = 0;
@@ -77,8 +77,7 @@ std::string screenImu(mrpt::obs::CObservationIMU& o) {
 
 std::string screenPosition(double latitude_deg, double longitude_deg, double altitude_m) {
   if (!finite({latitude_deg, longitude_deg, altitude_m})) return "not finite";
-  if (std::abs(latitude_deg) > 90 || std::abs(longitude_deg) > 360 || std::abs(altitude_m) > 1e6)
-    return "absurd value";
+  if (std::abs(latitude_deg) > 90 || std::abs(longitude_deg) > 360 || std::abs(altitude_m) > 1e6) return "absurd value";
   return "";
 }
 
