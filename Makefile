@@ -5,7 +5,7 @@ PRESET ?= release
 DATASETS := /usr/share/mrpt/datasets
 DEMO_OUT ?= build/demo
 
-.PHONY: help packages build demo test bench fuzz install clean
+.PHONY: help packages configure build demo test bench fuzz install clean
 help:
 	@echo "make demo     localize a real log (from mrpt-common): a table here, a picture in $(DEMO_OUT)"
 	@echo "make test     build everything and run all tests"
@@ -24,9 +24,11 @@ packages:
 	echo "installing:" $$missing; \
 	$$sudo apt-get update -qq && DEBIAN_FRONTEND=noninteractive $$sudo apt-get install -y --no-install-recommends -qq $$missing
 
-build: packages
-	@cmake --preset $(PRESET) > build-$(PRESET).log 2>&1 || { cat build-$(PRESET).log; exit 1; }; rm -f build-$(PRESET).log
+build: packages configure
 	@cmake --build --preset $(PRESET)
+
+configure:
+	@cmake --preset $(PRESET) > build-$(PRESET).log 2>&1 || { cat build-$(PRESET).log; exit 1; }; rm -f build-$(PRESET).log
 
 test: build
 	@ctest --preset $(PRESET) -j2
@@ -40,8 +42,9 @@ demo: build
 bench: build
 	@for b in build/$(PRESET)/bin/bench_*; do $$b || exit 1; done
 
-fuzz:
-	@$(MAKE) --no-print-directory build PRESET=asan
+fuzz: packages
+	@$(MAKE) --no-print-directory configure PRESET=asan
+	@cmake --build --preset asan --target fuzz_rawlog_reader
 	@build/asan/bin/fuzz_rawlog_reader tests/data --seconds 60
 
 install: build

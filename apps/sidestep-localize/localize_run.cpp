@@ -65,7 +65,7 @@ class Run {
         config_(config),
         folder_(options.output, options.overwrite),
         reader_(options.log, readerOptions(options, config)),
-        localizer_(config.robot, makeEkf(config.ekf), config.uses("gps"), config.ekf.heading_offset_sd),
+        localizer_(config.robot, makeEkf(config.ekf), expectation(config)),
         truth_(options.ground_truth, config),
         writer_(folder_.file("estimate.rawlog"), commandLine()),
         tum_(folder_.file("trajectory.tum")) {}
@@ -79,6 +79,9 @@ class Run {
     r.from_s = o.from_s;
     r.to_s = o.to_s;
     return r;
+  }
+  static Expectation expectation(const LocalizeConfig& c) {
+    return {c.uses("gps"), c.uses("imu") && c.robot.imu.heading != "off", c.ekf.heading_offset_sd};
   }
   void handle(const LogEntry& e);
   void feed(const LogEntry& e);

@@ -18,6 +18,12 @@ double chiSquareCdf(double q, int dof) {
   const double one = std::erf(std::sqrt(q / 2));
   return dof == 1 ? one : one - std::sqrt(2 * q / M_PI) * std::exp(-q / 2);
 }
+/// What measurements tell: positions (fixes, ranges), headings, the gyro's bias. While one sensor of a group is believed,
+/// another that is refused is the one at fault.
+size_t group(const Measurement& m) {
+  if (m.kind == Measurement::Kind::kStill) return 2;
+  return m.kind == Measurement::Kind::kHeading ? 1 : 0;
+}
 }  // namespace
 
 double chiSquareQuantile(double probability, int dof) {
@@ -52,7 +58,7 @@ void EkfParams::visit(ParamVisitor& v) {
   v.flag("gate", gate, "refuse measurements whose innovation is outside the chi-square gate");
   v.number("gate_probability", gate_probability, {0.5, 0.999999999}, "", "share of good measurements the gate lets in");
   v.number("gate_patience_s", gate_patience_s, {0, 1e9}, "s",
-           "a sensor refused for this long in a row is believed again, and the covariance opened to it");
+           "positions (or headings) all refused for this long are believed again, the covariance opened to them");
   v.angle("heading_offset_sd_deg", heading_offset_sd, {0, 360}, "sd of the IMU's unknown heading offset; 0 = none");
   v.angle("heading_offset_walk_deg", heading_offset_walk, {0, 90}, "how much that offset drifts in a second");
   v.angle("yaw_rate_bias_sd_deg", yaw_rate_bias_sd, {0, 90}, "sd of the gyro's unknown bias (deg/s); 0 = none");
@@ -160,7 +166,7 @@ Correction Ekf<N>::correctBias(const Measurement& m) {
 
 template <int N>
 bool Ekf<N>::relaxGate(const Measurement& m) {
-  double& since = refused_since_[static_cast<size_t>(m.sensor) % kSensors];
+  double& since = refused_since_[group(m)];
   if (since == 0) since = m.time_s;
   if (m.time_s - since < params_.gate_patience_s) return false;
   since = 0;
@@ -187,7 +193,7 @@ Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1
     S = H * P_ * H.transpose() + R;
     S_inverse = S.inverse();
   } else {
-    refused_since_[static_cast<size_t>(m.sensor) % kSensors] = 0;
+    refused_since_[group(m)] = 0;
   }
   const Eigen::Matrix<double, N, M> K = P_ * H.transpose() * S_inverse;  // (3.3)
   const State x = x_ + K * nu;                                           // (2.13)
@@ -207,7 +213,7 @@ PoseBelief Ekf<N>::estimate() const {
 
 template <int N>
 void Ekf<N>::save(std::vector<double>& out) const {
-  out.resize(N + N * N + kSensors);
+  out.resize(N + N * N + kGroups);
   double* p = out.data();
   p = std::copy(x_.data(), x_.data() + N, p);
   p = std::copy(P_.data(), P_.data() + N * N, p);
@@ -221,7 +227,7 @@ void Ekf<N>::restore(const std::vector<double>& state) {
   p += N;
   std::copy(p, p + N * N, P_.data());
   p += N * N;
-  std::copy(p, p + kSensors, refused_since_.begin());
+  std::copy(p, p + kGroups, refused_since_.begin());
 }
 
 template class Ekf<3>;

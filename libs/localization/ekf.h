@@ -13,7 +13,7 @@ namespace sidestep {
 struct EkfParams {
   bool gate = true;
   double gate_probability = 0.9973;
-  double gate_patience_s = 20;
+  double gate_patience_s = 30;
   double heading_offset_sd = 0;    // rad
   double heading_offset_walk = 0;  // rad / sqrt(s)
   double yaw_rate_bias_sd = 0;     // rad/s
@@ -53,12 +53,12 @@ class Ekf final : public PoseFilter {
   bool relaxGate(const Measurement& m);
   mrpt::math::TPose2D pose() const { return {x_(0), x_(1), x_(2)}; }
 
-  static constexpr int kSensors = 16;
+  static constexpr int kGroups = 3;
   EkfParams params_;
   std::array<double, 4> gate_{};  // NIS bound by degrees of freedom
   State x_ = State::Zero();
   Covariance P_ = Covariance::Zero();
-  std::array<double, kSensors> refused_since_{};  // time of the first refusal in a row, 0 = none
+  std::array<double, kGroups> refused_since_{};  // time of the first refusal in a row, 0 = none
 };
 
 /// The smallest EKF that does what the parameters ask for.

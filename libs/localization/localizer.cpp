@@ -34,13 +34,12 @@ void LocalizerParams::visit(ParamVisitor& v) {
   v.section("beacons", "ranges to known beacons", [this](ParamVisitor& w) { beacons.visit(w); });
 }
 
-Localizer::Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, bool expect_positions,
-                     double heading_offset_sd)
+Localizer::Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, const Expectation& expect)
     : params_(params),
       filter_(std::move(filter)),
       motion_(params.odometry, params.imu, params.zero_velocity),
       gps_(params.gps),
-      start_(params.start, expect_positions, heading_offset_sd) {}
+      start_(params.start, expect.positions, expect.heading, expect.heading_offset_sd) {}
 
 int Localizer::addStream(const std::string& label) {
   sensors_.push_back({});
@@ -111,9 +110,9 @@ void Localizer::imu(int stream, double time_s, const mrpt::obs::CObservationIMU&
     ++u.used;
     return;
   }
-  auto m = headingMeasurement(params_.imu, time_s, *reading.heading_rad);
+  auto m = headingMeasurement(params_.imu, time_s, *reading.heading_rad, last_heading_s_ > 0 ? time_s - last_heading_s_ : 0);
+  last_heading_s_ = time_s;
   m.stream = stream;
-  m.sensor = 1;
   add(m);
 }
 
@@ -137,7 +136,6 @@ void Localizer::position(int stream, double time_s, double x, double y) {
 void Localizer::beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o) {
   for (auto& m : beaconMeasurements(params_.beacons, time_s, o)) {
     ++use(stream).read;
-    m.sensor = 2 + m.sensor % 14;
     m.stream = stream;
     add(m);
   }

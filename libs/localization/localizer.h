@@ -52,6 +52,13 @@ struct SensorUse {
   int nis_dof = 0;
 };
 
+/// What the sensors in use can tell of the start.
+struct Expectation {
+  bool positions = false;       ///< fixes will come: wait for them
+  bool heading = false;         ///< so may the IMU's heading
+  double heading_offset_sd = 0; ///< how well that is known as the robot's [rad]
+};
+
 /// Feeds a filter from a robot's sensors: motion from odometry (and gyro), measurements at their own times.
 ///
 /// Observations come in any order within `late_window_s`. A measurement that lies between two odometry readings splits
@@ -61,10 +68,7 @@ struct SensorUse {
 /// With a position sensor and no initial pose, the start is found from the first stretch of motion (StartAlignment).
 class Localizer {
  public:
-  /// @param expect_positions   a sensor that tells positions is in use: wait for it to find the start
-  /// @param heading_offset_sd  how well the IMU's heading is known as the robot's [rad]
-  Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, bool expect_positions,
-            double heading_offset_sd);
+  Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, const Expectation& expect);
 
   /// A stream of measurements; the number goes with each observation.
   int addStream(const std::string& label);
@@ -125,7 +129,7 @@ class Localizer {
   std::deque<MotionSource::Step> waiting_;  // motion before the start is known
   std::vector<double> base_state_;          // state before history_.front()
   std::vector<std::vector<double>> spare_states_;
-  double base_time_s_ = 0, now_s_ = 0;
+  double base_time_s_ = 0, now_s_ = 0, last_heading_s_ = 0;
   MotionStep last_motion_;
   mrpt::math::TPose2D odometry_pose_;
   uint64_t odometry_count_ = 0;

@@ -20,7 +20,6 @@ struct Measurement {
   };
   Kind kind = Kind::kPosition;
   double time_s = 0;
-  int sensor = 0;                                 ///< which sensor of its kind, for the patience of the gate
   int stream = 0;                                 ///< which label of the log, for the counts
   Eigen::Vector3d z = Eigen::Vector3d::Zero();    ///< the first size() count [m], [rad]
   Eigen::Matrix3d R = Eigen::Matrix3d::Zero();    ///< its noise, the first size() rows and columns

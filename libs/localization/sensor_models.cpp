@@ -32,6 +32,8 @@ void ImuParams::visit(ParamVisitor& v) {
   v.choice("yaw_rate", yaw_rate, {"auto", "on", "off"},
            "let the gyro tell the turns instead of the wheels; auto: if sampled often enough");
   v.angle("heading_sd_deg", heading_sd, {0.01, 180}, "sd of the heading (3.17)");
+  v.number("heading_correlation_s", heading_correlation_s, {0, 3600}, "s",
+           "time over which errors of the heading stay alike (magnetic surroundings); see gps.correlation_s");
   v.angle("heading_offset_deg", heading_offset, {-360, 360}, "subtracted from the IMU's yaw (mounting, declination)");
   v.angle("yaw_rate_bias_deg", yaw_rate_bias, {-90, 90}, "subtracted from the yaw rate (deg/s)");
   v.angle("yaw_rate_sd_deg", yaw_rate_sd, {0.0001, 90}, "sd of a one-second average of the yaw rate (deg/s)");
@@ -85,13 +87,15 @@ Measurement GpsModel::make(double time_s, double x, double y, double hdop) {
   m.z << x, y, 0;
   m.p_base_sensor << params_.lever_x_m, params_.lever_y_m, 0;
   const double sd = params_.use_hdop > 0 && hdop > 0 ? params_.use_hdop * hdop : params_.sd_m;
-  double variance = sd * sd;
-  // White noise of the same spectral density as an exponentially correlated error: 2 tau sd^2 / dt.
-  const double dt = last_time_s_ > 0 ? time_s - last_time_s_ : 0;
-  if (params_.correlation_s > 0 && dt > 0) variance *= std::max(1.0, 2 * params_.correlation_s / std::max(dt, 1e-3));
+  const double variance = correlatedVariance(sd, params_.correlation_s, last_time_s_ > 0 ? time_s - last_time_s_ : 0);
   last_time_s_ = time_s;
   m.R(0, 0) = m.R(1, 1) = variance;
   return m;
+}
+
+double correlatedVariance(double sd, double correlation_s, double period_s) {
+  if (!(period_s > 0)) return sd * sd;
+  return sd * sd * std::max(1.0, 2 * correlation_s / std::max(period_s, 1e-3));
 }
 
 ImuReading readImu(const ImuParams& params, const mrpt::obs::CObservationIMU& imu) {
@@ -118,12 +122,12 @@ ImuReading readImu(const ImuParams& params, const mrpt::obs::CObservationIMU& im
   return out;
 }
 
-Measurement headingMeasurement(const ImuParams& params, double time_s, double heading_rad) {
+Measurement headingMeasurement(const ImuParams& params, double time_s, double heading_rad, double period_s) {
   Measurement m;
   m.kind = Measurement::Kind::kHeading;
   m.time_s = time_s - params.delay_s;
   m.z(0) = heading_rad;
-  m.R(0, 0) = params.heading_sd * params.heading_sd;
+  m.R(0, 0) = correlatedVariance(params.heading_sd, params.heading_correlation_s, period_s);
   m.heading_has_offset = true;
   return m;
 }
@@ -142,7 +146,6 @@ std::vector<Measurement> beaconMeasurements(const BeaconParams& params, double t
       const auto& p = range.sensorLocationOnRobot;
       m.p_base_sensor << p.x(), p.y(), p.z();
       m.p_map_beacon << beacon[1], beacon[2], beacon[3];
-      m.sensor = range.beaconID;
       out.push_back(m);
     }
   }

@@ -33,6 +33,7 @@ struct ImuParams {
   std::string heading = "auto";
   std::string yaw_rate = "auto";
   double heading_sd = 0.0873;     // rad
+  double heading_correlation_s = 0;
   double heading_offset = 0;      // rad
   double yaw_rate_bias = 0;       // rad/s
   double yaw_rate_sd = 0.003;     // rad/s, of a 1 s average
@@ -74,7 +75,12 @@ struct ImuReading {
   std::optional<double> heading_rad, yaw_rate;
 };
 ImuReading readImu(const ImuParams& params, const mrpt::obs::CObservationIMU& imu);
-Measurement headingMeasurement(const ImuParams& params, double time_s, double heading_rad);
+/// @param period_s  time since the last heading [s], 0 = unknown
+Measurement headingMeasurement(const ImuParams& params, double time_s, double heading_rad, double period_s);
+
+/// Variance for a stream of measurements whose errors stay alike for `correlation_s`: white noise of the same spectral
+/// density as an exponentially correlated error, 2 tau sd^2 / dt; never less than sd^2.
+double correlatedVariance(double sd, double correlation_s, double period_s);
 
 /// One measurement a range to a beacon that the parameters know.
 std::vector<Measurement> beaconMeasurements(const BeaconParams& params, double time_s,

@@ -25,11 +25,16 @@ void StartParams::visit(ParamVisitor& v) {
   v.angle("yaw_sd_deg", yaw_sd, {0, 360}, "how well that heading is known");
   v.number("align_distance_m", align_distance_m, {0.1, 10000}, "m",
            "how far the robot must have gone before fixes tell its heading");
+  v.number("heading_wait_s", heading_wait_s, {0, 1000}, "s", "wait this long for the IMU's first heading");
   v.number("align_time_s", align_time_s, {0.1, 100000}, "s", "start with what is known after this long");
 }
 
-StartAlignment::StartAlignment(const StartParams& params, bool expect_positions, double heading_offset_sd)
-    : params_(params), expect_positions_(expect_positions), heading_offset_sd_(heading_offset_sd) {}
+StartAlignment::StartAlignment(const StartParams& params, bool expect_positions, bool expect_heading,
+                               double heading_offset_sd)
+    : params_(params),
+      expect_positions_(expect_positions),
+      expect_heading_(expect_heading),
+      heading_offset_sd_(heading_offset_sd) {}
 
 void StartAlignment::begin(double time_s) {
   if (!begin_s_) begin_s_ = now_s_ = time_s;
@@ -58,6 +63,15 @@ PoseBelief StartAlignment::given() const {
   b.mean = {params_.x_m, params_.y_m, params_.yaw};
   const double p = params_.position_sd_m * params_.position_sd_m;
   b.covariance.diagonal() << p, p, params_.yaw_sd * params_.yaw_sd;
+  return b;
+}
+
+/// The origin is where the robot starts; if the IMU tells a heading, its frame is the map's.
+PoseBelief StartAlignment::atOrigin() const {
+  PoseBelief b = given();
+  if (!heading_) return b;
+  b.mean.phi = mrpt::math::wrapToPi(*heading_ - heading_track_->phi);
+  b.covariance(2, 2) = heading_var_;
   return b;
 }
 
@@ -104,11 +118,15 @@ std::optional<PoseBelief> StartAlignment::fromTrack(bool last_chance) const {
 
 std::optional<StartBelief> StartAlignment::solve(bool last_chance) const {
   if (!begin_s_) return std::nullopt;
-  if (params_.pose_given || !expect_positions_) return StartBelief{*begin_s_, given()};
+  if (params_.pose_given) return StartBelief{*begin_s_, given()};
+  if (!expect_positions_) {
+    const bool wait = expect_heading_ && !heading_ && !last_chance && now_s_ - *begin_s_ < params_.heading_wait_s;
+    return wait ? std::nullopt : std::optional(StartBelief{*begin_s_, atOrigin()});
+  }
   const bool timeout = last_chance || now_s_ - *begin_s_ > params_.align_time_s;
   if (auto b = fromHeading()) return StartBelief{*begin_s_, *b};
   if (auto b = fromTrack(timeout)) return StartBelief{*begin_s_, *b};
-  if (timeout) return StartBelief{*begin_s_, given()};
+  if (timeout) return StartBelief{*begin_s_, atOrigin()};
   return std::nullopt;
 }
 

@@ -18,6 +18,7 @@ struct StartParams {
   double yaw_sd = 0.02;  // rad
   double align_distance_m = 5;
   double align_time_s = 120;
+  double heading_wait_s = 3;
 
   void visit(ParamVisitor& v);
 };
@@ -31,7 +32,7 @@ struct StartBelief {
 /// the fixes (SE(2) least squares); or, where the IMU knows its heading well enough, from the first fix at once.
 class StartAlignment {
  public:
-  StartAlignment(const StartParams& params, bool expect_positions, double heading_offset_sd);
+  StartAlignment(const StartParams& params, bool expect_positions, bool expect_heading, double heading_offset_sd);
 
   void begin(double time_s);
   /// Odometry moved; `T_start_base` is its track since begin().
@@ -47,11 +48,12 @@ class StartAlignment {
     double variance;
   };
   PoseBelief given() const;
+  PoseBelief atOrigin() const;
   std::optional<PoseBelief> fromHeading() const;
   std::optional<PoseBelief> fromTrack(bool last_chance) const;
 
   StartParams params_;
-  bool expect_positions_;
+  bool expect_positions_, expect_heading_;
   double heading_offset_sd_;
   std::optional<double> begin_s_, heading_;
   double heading_var_ = 0, now_s_ = 0;

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Modules include only what lies above them in the table of doc/design.md.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "support/run_program.h"
+
+namespace sidestep::testing {
+namespace {
+
+using Modules = std::set<std::string>;
+
+const std::map<std::string, Modules>& mayInclude() {
+  static const std::map<std::string, Modules> table = {
+      {"core", {}},
+      {"datasets", {"core"}},
+      {"maps", {"core"}},
+      {"localization", {"core", "maps"}},
+      {"perception", {"core", "maps"}},
+      {"planning", {"core", "maps"}},
+      {"control", {"core"}},
+      {"simulation", {"core", "maps", "control"}},
+      {"robots", {"core", "control", "simulation"}},
+      {"navigation", {"core", "datasets", "maps", "localization", "perception", "planning", "control"}},
+      {"evaluation",
+       {"core", "datasets", "maps", "localization", "perception", "planning", "control", "simulation", "robots",
+        "navigation"}}};
+  return table;
+}
+
+/// What is wrong with the includes of one file of `module`, a line each.
+std::string complaints(const std::string& module, const std::string& file, const std::string& text) {
+  static const std::regex include("^\\s*#\\s*include\\s*[\"<]([^\">]+)[\">].*$");
+  const auto row = mayInclude().find(module);
+  if (row == mayInclude().end()) return file + ": no module '" + module + "' in the table\n";
+  std::string out;
+  int number = 0;
+  for (const auto& line : linesOf(text)) {
+    ++number;
+    std::smatch match;
+    if (!std::regex_match(line, match, include)) continue;
+    const std::string target = match[1], first = target.substr(0, target.find('/'));
+    const bool ours = mayInclude().count(first) > 0 || target.starts_with("..") || first == "common" || first == "apps";
+    if (ours && first != module && row->second.count(first) == 0)
+      out += file + ":" + std::to_string(number) + ": " + module + " may not include " + target + "\n";
+  }
+  return out;
+}
+
+TEST(IncludeDirection, IsThatOfTheDesign) {
+  const std::filesystem::path libs = std::filesystem::path(SIDESTEP_SOURCE) / "libs";
+  std::string all;
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(libs)) {
+    const auto extension = entry.path().extension();
+    if (extension != ".h" && extension != ".cpp") continue;
+    const auto relative = entry.path().lexically_relative(libs);
+    all += complaints(relative.begin()->string(), relative.string(), readFile(entry.path()));
+    ++files;
+  }
+  EXPECT_EQ(all, "");
+  EXPECT_GT(files, 20);
+}
+
+TEST(IncludeDirection, AnArrowDownTheTableIsFound) {
+  EXPECT_EQ(complaints("core", "core/a.h", "#include \"core/b.h\"\n#include \"datasets/log_reader.h\"\n"),
+            "core/a.h:2: core may not include datasets/log_reader.h\n");
+  EXPECT_NE(complaints("localization", "localization/a.cpp", "  # include <datasets/log_reader.h>\n"), "");
+  EXPECT_NE(complaints("datasets", "datasets/a.cpp", "#include \"../localization/ekf.h\"\n"), "");
+  EXPECT_NE(complaints("evaluation", "evaluation/a.cpp", "#include \"common/program.h\"\n"), "");
+  EXPECT_NE(complaints("helpers", "helpers/a.cpp", ""), "");
+}
+
+TEST(IncludeDirection, OwnModuleModulesAboveAndOthersLibrariesAreAllowed) {
+  EXPECT_EQ(complaints("localization", "localization/a.cpp",
+                       "#include \"localization/ekf.h\"\n#include \"core/params.h\"\n#include <vector>\n"
+                       "#include <mrpt/maps/COccupancyGridMap2D.h>\n// #include \"datasets/x.h\"\n"),
+            "");
+}
+
+}  // namespace
+}  // namespace sidestep::testing
