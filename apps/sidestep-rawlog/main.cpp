@@ -37,11 +37,12 @@ int main(int argc, char** argv) {
   Command chosen = nullptr;
   CLI::App app("Looks after rawlogs: what is in them, whether they are whole, what can be saved.", "sidestep-rawlog");
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 done, 2 usage, 3 input missing, 4 damaged or cut short, 130 interrupted.\n" + example("info"));
+  app.footer("Exit codes: 0 done, 2 usage, 3 input missing, 4 damaged or cut short, 130 interrupted.\n" +
+             example("info"));
   CLI::App* info = addCommand(app, "info", "what the log holds, label by label", o, showLog, chosen);
   CLI::App* check = addCommand(app, "check", "healthy, usable with care, or damaged, and why", o, checkLog, chosen);
-  CLI::App* recover = addCommand(app, "recover", "copy what can be read of a damaged log", o, recoverDamagedLog, chosen);
+  CLI::App* recover =
+      addCommand(app, "recover", "copy what can be read of a damaged log", o, recoverDamagedLog, chosen);
   addLabels(*info, o);
   addLabels(*check, o);
   recover->add_option("-o,--output", o.output, "log to write")->type_name("FILE")->capture_default_str();

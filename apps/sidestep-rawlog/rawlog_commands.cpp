@@ -59,7 +59,8 @@ ExitCode recoverDamagedLog(const RawlogOptions& options) {
   if (std::filesystem::exists(options.output, none) && !options.overwrite)
     throw ConfigError(options.output + ": is there already; give another --output, or --overwrite");
   const RecoveryReport report = recoverLog(options.log, options.output);
-  std::fputs((options.json ? recoveryJson(report, options.output) : recoveryText(report, options.output)).c_str(), stdout);
+  std::fputs((options.json ? recoveryJson(report, options.output) : recoveryText(report, options.output)).c_str(),
+             stdout);
   return report.entries == 0 ? ExitCode::kInputCorrupt : ExitCode::kDone;
 }
 

@@ -33,7 +33,8 @@ std::string date(double time_s) {
 std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 std::string labelRow(const std::string& label, const LabelHealth& h, double log_start_s) {
-  const std::string gap = h.count < 2 ? "-" : format("%.3g s at %.1f s", h.largest_gap_s, h.largest_gap_at_s - log_start_s);
+  const std::string gap =
+      h.count < 2 ? "-" : format("%.3g s at %.1f s", h.largest_gap_s, h.largest_gap_at_s - log_start_s);
   return format("  %-18s %-13s %-26s %8llu %9.3f %10.4g %9.3g %6llu  ", printable(label).c_str(), word(h.kind).c_str(),
                 h.class_name.c_str(), static_cast<unsigned long long>(h.count), h.rate_hz, h.period_s, h.jitter_s,
                 static_cast<unsigned long long>(h.gaps)) +
@@ -58,13 +59,15 @@ Json labelJson(const LabelHealth& h) {
 }  // namespace
 
 std::string printable(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, '?');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, '?');
   return text;
 }
 
 std::string healthText(const LogHealth& health) {
   std::string out = printable(health.file) + "\n";
-  out += format("  format    %s, %llu bytes\n", health.format.c_str(), static_cast<unsigned long long>(health.file_bytes));
+  out +=
+      format("  format    %s, %llu bytes\n", health.format.c_str(), static_cast<unsigned long long>(health.file_bytes));
   out += format("  entries   %llu, %llu bytes uncompressed\n", static_cast<unsigned long long>(health.end.entries),
                 static_cast<unsigned long long>(health.end.bytes));
   if (!health.labels.empty())
@@ -97,13 +100,15 @@ std::string healthJson(const LogHealth& health) {
 
 std::string recoveryText(const RecoveryReport& r, const std::string& out) {
   std::string text = format("%llu entries (%llu bytes) written to ", static_cast<unsigned long long>(r.entries),
-                            static_cast<unsigned long long>(r.bytes)) + out + "\n";
+                            static_cast<unsigned long long>(r.bytes)) +
+                     out + "\n";
   if (r.breaks == 0) return text + "nothing was missing\n";
-  return text + format("%llu breaks, the first: %s\n%llu bytes lost", static_cast<unsigned long long>(r.breaks),
-                       r.first_damage.c_str(), static_cast<unsigned long long>(r.lost_bytes)) +
-         (r.skipped_bytes > 0
-              ? format(", and %llu compressed bytes that could not be inflated\n", static_cast<unsigned long long>(r.skipped_bytes))
-              : std::string("\n"));
+  return text +
+         format("%llu breaks, the first: %s\n%llu bytes lost", static_cast<unsigned long long>(r.breaks),
+                r.first_damage.c_str(), static_cast<unsigned long long>(r.lost_bytes)) +
+         (r.skipped_bytes > 0 ? format(", and %llu compressed bytes that could not be inflated\n",
+                                       static_cast<unsigned long long>(r.skipped_bytes))
+                              : std::string("\n"));
 }
 
 std::string recoveryJson(const RecoveryReport& r, const std::string& out) {

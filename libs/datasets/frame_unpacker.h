@@ -39,7 +39,7 @@ class FrameUnpacker {
 
   bool frames_ = false;
   bool odometry_waits_ = false;
-  double action_s_ = 0;       ///< stamp of the waiting action; <= 0 if it has none
+  double action_s_ = 0;  ///< stamp of the waiting action; <= 0 if it has none
   mrpt::poses::CPose2D odometry_;
 };
 

@@ -25,7 +25,8 @@ struct Restart {
 
 class Salvage {
  public:
-  Salvage(std::string_view in, const std::string& out_name) : in_(in), out_(out_name, std::ios::binary), name_(out_name) {}
+  Salvage(std::string_view in, const std::string& out_name)
+      : in_(in), out_(out_name, std::ios::binary), name_(out_name) {}
 
   SalvagedBytes run() {
     Restart next{0, kGzipMember};

@@ -27,8 +27,9 @@ SensorKind kindOf(const std::string& text) {
   if (at != words.end()) return static_cast<SensorKind>(at - words.begin());
   const std::string near = nearestWord(text, words);
   throw ConfigError("label " + text + "=...: no such kind of sensor" +
-                    (near.empty() ? ", known: odometry, imu, gps, beacons, landmarks, laser, rgbd, ground_truth, estimate"
-                                  : ", did you mean " + near + "?"));
+                    (near.empty()
+                         ? ", known: odometry, imu, gps, beacons, landmarks, laser, rgbd, ground_truth, estimate"
+                         : ", did you mean " + near + "?"));
 }
 
 SensorKind poseKind(std::string label) {

@@ -67,8 +67,8 @@ void judge(LogHealth& health) {
       health.reasons.push_back(label + ": " + std::to_string(count) + " refused, " + reason);
   for (const auto& [label, h] : health.labels)
     if (h.gaps > 0)
-      health.reasons.push_back(label + ": " + std::to_string(h.gaps) + " gaps, the largest " + seconds(h.largest_gap_s) +
-                               " where " + seconds(h.period_s) + " is usual");
+      health.reasons.push_back(label + ": " + std::to_string(h.gaps) + " gaps, the largest " +
+                               seconds(h.largest_gap_s) + " where " + seconds(h.period_s) + " is usual");
   for (const auto& [label, h] : health.labels)
     if (h.repeated_stamps > 0)
       health.reasons.push_back(label + ": " + std::to_string(h.repeated_stamps) + " stamps repeated");

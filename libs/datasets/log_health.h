@@ -20,8 +20,8 @@ struct LabelHealth {
   double period_s = 0;             ///< median, to about 5 %
   double jitter_s = 0;             ///< half of what lies between the 5 % and the 95 % quantile of the periods
   double largest_gap_s = 0;
-  double largest_gap_at_s = 0;     ///< Unix time of its beginning [s]
-  uint64_t gaps = 0;               ///< periods over five times the median
+  double largest_gap_at_s = 0;  ///< Unix time of its beginning [s]
+  uint64_t gaps = 0;            ///< periods over five times the median
   uint64_t repeated_stamps = 0;
 };
 

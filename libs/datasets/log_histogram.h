@@ -7,8 +7,8 @@
 
 namespace sidestep {
 
-/// Quantiles of positive numbers between 1e-6 and 1e6 in fixed memory, to about 5 %: counts in logarithmic bins, and the
-/// mean within each.
+/// Quantiles of positive numbers between 1e-6 and 1e6 in fixed memory, to about 5 %: counts in logarithmic bins, and
+/// the mean within each.
 class LogHistogram {
  public:
   void add(double value);

@@ -36,7 +36,7 @@ class MarkerCheck {
  private:
   bool ours_ = false;
   bool first_ = true;
-  uint64_t count_ = 0;             ///< objects since the header
+  uint64_t count_ = 0;  ///< objects since the header
   std::optional<uint64_t> stated_;
   uint64_t after_end_ = 0;
   std::string header_;

@@ -16,27 +16,27 @@ struct LogReaderOptions {
   /// kind word -> label, from `--label gps=GPS_RTK_REAR`: only that label serves as that kind; a
   /// CObservationRobotPose may be named as gps (victoria_park's gps_xy).
   std::map<std::string, std::string> labels;
-  double from_s = 0;                  ///< skip what lies earlier than this after the first stamp [s]
-  double to_s = 1e18;                 ///< and what lies later [s]
-  double reorder_window_s = 2.0;      ///< observations are sorted by time within this much [s]
+  double from_s = 0;                       ///< skip what lies earlier than this after the first stamp [s]
+  double to_s = 1e18;                      ///< and what lies later [s]
+  double reorder_window_s = 2.0;           ///< observations are sorted by time within this much [s]
   size_t memory_limit_bytes = 1ull << 30;  ///< memory that decoding one log may take [byte]
-  double seconds_per_entry = 10;      ///< CPU time that decoding one entry may take [s]
+  double seconds_per_entry = 10;           ///< CPU time that decoding one entry may take [s]
 };
 
 /// How a log ended.
 struct LogEnd {
-  bool damaged = false;      ///< something did not decode, or the file is cut short
-  std::string message;       ///< one line: entry, byte and reason; empty when not damaged
-  uint64_t entries = 0;      ///< objects read whole
-  uint64_t bytes = 0;        ///< uncompressed bytes of these
+  bool damaged = false;  ///< something did not decode, or the file is cut short
+  std::string message;   ///< one line: entry, byte and reason; empty when not damaged
+  uint64_t entries = 0;  ///< objects read whole
+  uint64_t bytes = 0;    ///< uncompressed bytes of these
 };
 
 /// A log as a stream of screened observations in time order; memory does not grow with the log's length.
 ///
 /// Reads observation-only logs and action / sensory-frame logs (odometry increments become absolute odometry), plain or
-/// gzip. Decoding runs in a child process whose memory and CPU time are bounded, since MRPT allocates whatever a damaged
-/// length says; whatever happens there ends this stream with `end().damaged`, never this process.
-/// Nothing that is not finite, out of range or without a plausible stamp comes out: it is counted in `refused()`.
+/// gzip. Decoding runs in a child process whose memory and CPU time are bounded, since MRPT allocates whatever a
+/// damaged length says; whatever happens there ends this stream with `end().damaged`, never this process. Nothing that
+/// is not finite, out of range or without a plausible stamp comes out: it is counted in `refused()`.
 class LogReader {
  public:
   /// @throws DatasetError (missing) if the file cannot be opened.

@@ -32,9 +32,9 @@ struct TemporaryFile {
 
 bool isLogClass(const std::string& name) {
   const auto* id = mrpt::rtti::findRegisteredClass(name);
-  return id != nullptr && (id->derivedFrom(CLASS_ID(mrpt::obs::CObservation)) ||
-                           id->derivedFrom(CLASS_ID(mrpt::obs::CSensoryFrame)) ||
-                           id->derivedFrom(CLASS_ID(mrpt::obs::CActionCollection)));
+  return id != nullptr &&
+         (id->derivedFrom(CLASS_ID(mrpt::obs::CObservation)) || id->derivedFrom(CLASS_ID(mrpt::obs::CSensoryFrame)) ||
+          id->derivedFrom(CLASS_ID(mrpt::obs::CActionCollection)));
 }
 
 bool looksLikeName(std::string_view name) {
@@ -88,7 +88,8 @@ class Recovery {
 
   /// The output, begun with the log's own header if that comes first.
   LogWriter& writer(const std::string& header) {
-    if (!writer_) writer_.emplace(out_name_, header.empty() ? "sidestep: {recovered_from: '" + source_ + "'}\n" : header);
+    if (!writer_)
+      writer_.emplace(out_name_, header.empty() ? "sidestep: {recovered_from: '" + source_ + "'}\n" : header);
     return *writer_;
   }
 

@@ -11,12 +11,12 @@ namespace sidestep {
 
 /// What was got out of a damaged log.
 struct RecoveryReport {
-  uint64_t entries = 0;           ///< objects written
-  uint64_t bytes = 0;             ///< uncompressed bytes of these
-  uint64_t lost_bytes = 0;        ///< uncompressed bytes that belong to no whole object
-  uint64_t skipped_bytes = 0;     ///< compressed bytes that could not even be inflated
-  uint64_t breaks = 0;            ///< places where something is missing
-  std::string first_damage;       ///< what the first was, in a few words; empty if the log was whole
+  uint64_t entries = 0;        ///< objects written
+  uint64_t bytes = 0;          ///< uncompressed bytes of these
+  uint64_t lost_bytes = 0;     ///< uncompressed bytes that belong to no whole object
+  uint64_t skipped_bytes = 0;  ///< compressed bytes that could not even be inflated
+  uint64_t breaks = 0;         ///< places where something is missing
+  std::string first_damage;    ///< what the first was, in a few words; empty if the log was whole
 };
 
 /// Copies all whole objects of `in` to `out`, a log of our own with header and end marker: what lies before the damage,

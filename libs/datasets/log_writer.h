@@ -10,8 +10,8 @@
 namespace sidestep {
 
 /// Writes an observations-only rawlog: gzip level 1, a comment first (program, parameters, seed) and one last with the
-/// count, so that a cut log is known as cut. Flushed at least every second of log time (zlib full flush), so that what a
-/// killed program wrote can be read up to there, by MRPT's tools too.
+/// count, so that a cut log is known as cut. Flushed at least every second of log time (zlib full flush), so that what
+/// a killed program wrote can be read up to there, by MRPT's tools too.
 class LogWriter {
  public:
   /// @throws DatasetError if the file cannot be created.

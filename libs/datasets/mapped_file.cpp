@@ -17,7 +17,8 @@ namespace sidestep {
 MappedFile::MappedFile(const std::string& file) {
   const int fd = open(file.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat info {};
-  if (fd < 0 || fstat(fd, &info) != 0) throw DatasetError::missing(file + ": cannot be opened: " + std::strerror(errno));
+  if (fd < 0 || fstat(fd, &info) != 0)
+    throw DatasetError::missing(file + ": cannot be opened: " + std::strerror(errno));
   size_ = S_ISREG(info.st_mode) ? static_cast<size_t>(info.st_size) : 0;
   void* memory = size_ > 0 ? mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, fd, 0) : nullptr;
   close(fd);

@@ -48,7 +48,8 @@ class StringArchive : public mrpt::serialization::CArchive {
 
 std::string gzipReason(gzFile file) {
   int code = Z_OK;
-  const std::string text = gzerror(file, &code);
+  std::string text = gzerror(file, &code);
+  if (const size_t colon = text.find(": "); colon != std::string::npos) text.erase(0, colon + 2);  // "<fd:4>: "
   if (code == Z_BUF_ERROR) return "gzip data cut short";
   if (code == Z_ERRNO) return std::string("cannot be read: ") + std::strerror(errno);
   return "gzip data damaged" + (text.empty() ? "" : " (" + text + ")");

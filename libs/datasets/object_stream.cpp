@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "core/errors.h"
+#include "core/params.h"
 #include "datasets/object_archive.h"
 
 namespace sidestep {
@@ -43,13 +44,12 @@ SharedBatch* mapBatch() {
 }
 
 std::string deathReason(int status, const DecodeLimits& limits) {
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF)
-    return "decoding it takes more than " + std::to_string(limits.seconds_per_object) + " s";
-  if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL && WTERMSIG(status) != SIGTERM)
-    return "decoding it needs more than " + std::to_string(limits.memory_bytes >> 20) + " MiB or crashes (signal " +
-           std::to_string(WTERMSIG(status)) + ")";
-  if (WIFSIGNALED(status)) return "the decoding process was killed";
-  return "the decoding process ended early";
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal == SIGPROF) return "decoding it takes more than " + shortestNumber(limits.seconds_per_object) + " s";
+  if (signal == SIGKILL || signal == SIGTERM) return "the decoding process was killed";
+  if (status == 0) return "the decoding process ended early";
+  return "decoding it needs more than " + std::to_string(limits.memory_bytes >> 20) + " MiB or crashes (" +
+         (signal != 0 ? "signal " + std::to_string(signal) : "status " + std::to_string(WEXITSTATUS(status))) + ")";
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ struct ObjectStream::Impl {
   FileDescriptor file, pipe;
   pid_t child = -1;
   SharedBatch* batch = nullptr;
-  std::string buffer;   ///< received, from `parsed` on not yet taken
+  std::string buffer;  ///< received, from `parsed` on not yet taken
   size_t parsed = 0;
   bool pipe_closed = false, ended = false;
   std::string failure;

@@ -36,8 +36,8 @@ void ReorderBuffer::hold(Held held) {
 }
 
 void ReorderBuffer::release(double up_to_s) {
-  while (!held_.empty() && (held_.top().entry.time_s <= up_to_s || held_.size() > kMostEntries ||
-                            held_bytes_ > kMostBytes)) {
+  while (!held_.empty() &&
+         (held_.top().entry.time_s <= up_to_s || held_.size() > kMostEntries || held_bytes_ > kMostBytes)) {
     left_s_ = held_.top().entry.time_s;
     held_bytes_ -= held_.top().bytes;
     ready_.push_back(held_.top().entry);

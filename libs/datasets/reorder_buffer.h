@@ -14,8 +14,8 @@ namespace sidestep {
 
 /// Puts entries into time order, holding each back until one that is `window_s` newer has come.
 ///
-/// A stamp more than a minute ahead is believed only when two more follow it there: one stray stamp would otherwise make
-/// the rest of the log look late. Bounded in entries and bytes: when full, the oldest leaves early.
+/// A stamp more than a minute ahead is believed only when two more follow it there: one stray stamp would otherwise
+/// make the rest of the log look late. Bounded in entries and bytes: when full, the oldest leaves early.
 class ReorderBuffer {
  public:
   using Refuse = std::function<void(const LogEntry&, const char* reason)>;
@@ -53,7 +53,7 @@ class ReorderBuffer {
   uint64_t arrivals_ = 0;
   bool any_ = false;
   double newest_s_ = 0;
-  double left_s_ = 0;        ///< stamp of the last one that left
+  double left_s_ = 0;  ///< stamp of the last one that left
 };
 
 }  // namespace sidestep

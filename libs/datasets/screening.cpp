@@ -12,6 +12,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <cmath>
+#include <cstring>
 #include <initializer_list>
 
 namespace sidestep {
@@ -37,9 +38,20 @@ bool within(double limit, std::initializer_list<double> values) {
   return true;
 }
 
+/// MRPT reads a flag as the byte it finds, and old or damaged logs hold others than 0 and 1, which no bool may be. Such
+/// a flag was never set by anybody.
+void settle(std::initializer_list<bool*> flags) {
+  for (bool* flag : flags) {
+    unsigned char byte = 0;
+    std::memcpy(&byte, flag, 1);
+    if (byte > 1) *flag = false;
+  }
+}
+
 bool finitePose(const mrpt::poses::CPose3D& p) { return finite({p.x(), p.y(), p.z(), p.yaw(), p.pitch(), p.roll()}); }
 
-std::string screenOdometry(const mrpt::obs::CObservationOdometry& o) {
+std::string screenOdometry(mrpt::obs::CObservationOdometry& o) {
+  settle({&o.hasVelocities, &o.hasEncodersInfo});
   const auto& p = o.odometry;
   const auto& v = o.velocityLocal;
   if (!finite({p.x(), p.y(), p.phi()})) return "not finite";
@@ -50,7 +62,8 @@ std::string screenOdometry(const mrpt::obs::CObservationOdometry& o) {
   return "";
 }
 
-std::string screenImu(const mrpt::obs::CObservationIMU& o) {
+std::string screenImu(mrpt::obs::CObservationIMU& o) {
+  for (bool& present : o.dataIsPresent) settle({&present});
   for (size_t i = 0; i < o.rawMeasurements.size(); ++i)
     if (o.dataIsPresent[i] && !std::isfinite(o.rawMeasurements[i])) return "not finite";
   for (const auto rate : {mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ})
@@ -64,8 +77,7 @@ std::string screenImu(const mrpt::obs::CObservationIMU& o) {
 
 std::string screenPosition(double latitude_deg, double longitude_deg, double altitude_m) {
   if (!finite({latitude_deg, longitude_deg, altitude_m})) return "not finite";
-  if (std::abs(latitude_deg) > 90 || std::abs(longitude_deg) > 360 || std::abs(altitude_m) > 1e6)
-    return "absurd value";
+  if (std::abs(latitude_deg) > 90 || std::abs(longitude_deg) > 360 || std::abs(altitude_m) > 1e6) return "absurd value";
   return "";
 }
 
@@ -74,6 +86,7 @@ std::string screenGps(mrpt::obs::CObservationGPS& o) {
   using mrpt::obs::gnss::Message_NMEA_RMC;
   if (!finitePose(o.sensorPose)) return "not finite";
   if (auto* gga = o.getMsgByClassPtr<Message_NMEA_GGA>()) {
+    settle({&gga->fields.thereis_HDOP});
     if (gga->fields.fix_quality == 0) return "no fix";
     if (gga->fields.thereis_HDOP && !std::isfinite(gga->fields.HDOP)) return "not finite";
     return screenPosition(gga->fields.latitude_degrees, gga->fields.longitude_degrees, gga->fields.altitude_meters);
@@ -101,6 +114,7 @@ std::string screenBeacons(mrpt::obs::CObservationBeaconRanges& o, const Dropped&
 }
 
 std::string screenLandmarks(mrpt::obs::CObservationBearingRange& o, const Dropped& dropped) {
+  settle({&o.validCovariances});
   const auto bad = [&](const auto& m) {
     const bool good = isRange(m.range) && finite({m.yaw, m.pitch}) && within(1e3, {m.yaw, m.pitch}) &&
                       (!o.validCovariances || m.covariance.asEigen().allFinite());
@@ -115,6 +129,7 @@ std::string screenLandmarks(mrpt::obs::CObservationBearingRange& o, const Droppe
 }
 
 std::string screenScan(mrpt::obs::CObservation2DRangeScan& o) {
+  settle({&o.rightToLeft});
   if (o.getScanSize() == 0) return "no beams";
   if (!finitePose(o.sensorPose) || !finite({o.aperture, o.maxRange, o.stdError})) return "not finite";
   if (o.aperture <= 0 || o.aperture > 7 || o.maxRange <= 0) return "absurd value";
@@ -124,6 +139,11 @@ std::string screenScan(mrpt::obs::CObservation2DRangeScan& o) {
     o.setScanRangeValidity(i, false);
   }
   return "";
+}
+
+std::string screenRgbd(mrpt::obs::CObservation3DRangeScan& o) {
+  settle({&o.hasPoints3D, &o.hasRangeImage, &o.hasIntensityImage, &o.hasConfidenceImage, &o.range_is_depth});
+  return finitePose(o.sensorPose) ? "" : "not finite";
 }
 
 std::string screenPose(const mrpt::obs::CObservationRobotPose& o) {
@@ -147,8 +167,7 @@ std::string screen(mrpt::obs::CObservation& observation, const Dropped& dropped)
   if (auto* marks = dynamic_cast<mrpt::obs::CObservationBearingRange*>(o)) return screenLandmarks(*marks, dropped);
   if (auto* scan = dynamic_cast<mrpt::obs::CObservation2DRangeScan*>(o)) return screenScan(*scan);
   if (auto* pose = dynamic_cast<mrpt::obs::CObservationRobotPose*>(o)) return screenPose(*pose);
-  if (auto* rgbd = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(o))
-    return finitePose(rgbd->sensorPose) ? "" : "not finite";
+  if (auto* rgbd = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(o)) return screenRgbd(*rgbd);
   return "";
 }
 

@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -77,7 +78,8 @@ TEST_F(LogReaderTest, TheHeaderOfOurLogsCanBeAskedFor) {
 }
 
 TEST_F(LogReaderTest, IncrementsOfActionsAddUpToOdometryAtTheStampOfTheirFrame) {
-  const ReadLog log = read(frame(kStart_s), action(kStart_s + 0.5, 2), frame(kStart_s + 1), action(0, 3), frame(kStart_s + 2));
+  const ReadLog log =
+      read(frame(kStart_s), action(kStart_s + 0.5, 2), frame(kStart_s + 1), action(0, 3), frame(kStart_s + 2));
   ASSERT_EQ(log.entries.size(), 8u);
   std::vector<const LogEntry*> odometry;
   for (const LogEntry& e : log.entries)
@@ -110,7 +112,8 @@ TEST_F(LogReaderTest, ALastActionWithoutFrameKeepsItsOwnStamp) {
 }
 
 TEST_F(LogReaderTest, OneDamagedIncrementDoesNotSpoilTheRest) {
-  const ReadLog log = read(action(0, 1), frame(kStart_s), action(0, kNan), frame(kStart_s + 1), action(0, 1), frame(kStart_s + 2));
+  const ReadLog log =
+      read(action(0, 1), frame(kStart_s), action(0, kNan), frame(kStart_s + 1), action(0, 1), frame(kStart_s + 2));
   double x = 0;
   for (const LogEntry& e : log.entries)
     if (const auto* o = dynamic_cast<const mrpt::obs::CObservationOdometry*>(e.observation.get())) x = o->odometry.x();
@@ -182,7 +185,8 @@ TEST_F(LogReaderTest, RefusesWithTheReason) {
     const ReadLog log = read(bad, odometry(kStart_s + 1));
     EXPECT_EQ(log.entries.size(), 1u) << reason;
     ASSERT_TRUE(log.refused.contains(bad.sensorLabel)) << reason;
-    EXPECT_EQ(log.refused.at(bad.sensorLabel).count(reason), 1u) << reason << ", got " << log.refused.at(bad.sensorLabel).begin()->first;
+    EXPECT_EQ(log.refused.at(bad.sensorLabel).count(reason), 1u)
+        << reason << ", got " << log.refused.at(bad.sensorLabel).begin()->first;
     EXPECT_FALSE(log.end.damaged);
   };
   auto unstamped = imu(kStart_s);
@@ -205,6 +209,19 @@ TEST_F(LogReaderTest, RefusesWithTheReason) {
   expectRefused(pose(kStart_s, -1), "bad covariance");
   expectRefused(pose(kStart_s, kNan), "bad covariance");
   expectRefused(beacons(kStart_s, {0}), "only bad ranges");
+}
+
+TEST_F(LogReaderTest, AFlagThatIsNeitherTrueNorFalseCountsAsNotSet) {
+  auto without = odometry(kStart_s);
+  without.hasVelocities = false;
+  const std::string with_flag = plainLog(odometry(kStart_s)), no_flag = plainLog(without);
+  std::string garbage = with_flag;  // differs from the other in the flag first
+  const auto flag = std::mismatch(with_flag.begin(), with_flag.end(), no_flag.begin()).first - with_flag.begin();
+  garbage[static_cast<size_t>(flag)] = 74;
+  store(file_, garbage);
+  const ReadLog log = readLog(file_);
+  ASSERT_EQ(log.entries.size(), 1u) << log.end.message;
+  EXPECT_FALSE(dynamic_cast<const mrpt::obs::CObservationOdometry&>(*log.entries[0].observation).hasVelocities);
 }
 
 TEST_F(LogReaderTest, StampsNear1970AreLegal) {
@@ -232,7 +249,8 @@ TEST_F(LogReaderTest, BeamsThatAreNotFiniteBecomeInvalid) {
 }
 
 TEST_F(LogReaderTest, SortsWithinTheWindowAndRefusesWhatComesLater) {
-  const ReadLog log = read(odometry(kStart_s), odometry(kStart_s + 3), odometry(kStart_s + 1.5), odometry(kStart_s + 10), odometry(kStart_s + 2));
+  const ReadLog log = read(odometry(kStart_s), odometry(kStart_s + 3), odometry(kStart_s + 1.5),
+                           odometry(kStart_s + 10), odometry(kStart_s + 2));
   ASSERT_EQ(log.entries.size(), 4u);
   EXPECT_NEAR(log.entries[1].time_s, kStart_s + 1.5, 1e-6);
   EXPECT_NEAR(log.entries[2].time_s, kStart_s + 3, 1e-6);
@@ -249,13 +267,15 @@ TEST_F(LogReaderTest, EqualStampsKeepTheOrderOfTheLog) {
 }
 
 TEST_F(LogReaderTest, OneStrayStampAheadIsRefusedAndTheRestKept) {
-  const ReadLog log = read(odometry(kStart_s), odometry(kStart_s + 1e6), odometry(kStart_s + 1), odometry(kStart_s + 2));
+  const ReadLog log =
+      read(odometry(kStart_s), odometry(kStart_s + 1e6), odometry(kStart_s + 1), odometry(kStart_s + 2));
   EXPECT_EQ(log.entries.size(), 3u);
   EXPECT_EQ(log.refused.at("odometry").at("stray stamp"), 1u);
 }
 
 TEST_F(LogReaderTest, AClockThatJumpsAheadForGoodIsFollowed) {
-  const ReadLog log = read(odometry(10), odometry(11), odometry(kStart_s), odometry(kStart_s + 1), odometry(kStart_s + 2), odometry(kStart_s + 3));
+  const ReadLog log = read(odometry(10), odometry(11), odometry(kStart_s), odometry(kStart_s + 1),
+                           odometry(kStart_s + 2), odometry(kStart_s + 3));
   EXPECT_EQ(log.entries.size(), 6u);
   EXPECT_TRUE(log.refused.empty());
 }

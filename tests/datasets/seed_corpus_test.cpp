@@ -26,8 +26,8 @@ TEST(SeedCorpusTest, TheCommittedLogsAreWhatTheirDescriptionMakes) {
 
 TEST(SeedCorpusTest, EachIsWholeOrDamagedAsItsNameSays) {
   TemporaryFolder folder;
-  const std::set<std::string> damaged{"cut-gzip", "cut-plain", "flipped", "empty", "text", "gzip-of-nothing",
-                                      "hostile-length"};
+  const std::set<std::string> damaged{"cut-gzip", "cut-plain",       "flipped",       "empty",
+                                      "text",     "gzip-of-nothing", "hostile-length"};
   LogReaderOptions options;
   options.memory_limit_bytes = 256u << 20;
   for (const auto& [name, bytes] : seedCorpus(folder)) {

@@ -67,12 +67,22 @@ class Mutator {
     const size_t at = below(bytes.size());
     const std::string& other = corpus_[below(corpus_.size())];
     switch (below(6)) {
-      case 0: return flip(bytes, at);
-      case 1: return bytes.resize(at);
-      case 2: bytes = bytes.substr(0, at) + other.substr(below(other.size())); return;
-      case 3: bytes.insert(at, "\xff\xff\xff\xff"); return;
-      case 4: bytes.replace(at, 4, "\xff\xff\xff\xff"); return;
-      default: bytes.insert(at, bytes.substr(below(bytes.size()), below(2000))); return;
+      case 0:
+        return flip(bytes, at);
+      case 1:
+        return bytes.resize(at);
+      case 2:
+        bytes = bytes.substr(0, at) + other.substr(below(other.size()));
+        return;
+      case 3:
+        bytes.insert(at, "\xff\xff\xff\xff");
+        return;
+      case 4:
+        bytes.replace(at, 4, "\xff\xff\xff\xff");
+        return;
+      default:
+        bytes.insert(at, bytes.substr(below(bytes.size()), below(2000)));
+        return;
     }
   }
 
@@ -131,9 +141,12 @@ int main(int argc, char** argv) {
   try {
     for (int i = 1; i < argc; ++i) {
       const std::string word = argv[i];
-      if (word == "--seconds" && i + 1 < argc) seconds = std::stod(argv[++i]);
-      else if (word == "--seed" && i + 1 < argc) seed = static_cast<unsigned>(std::stoul(argv[++i]));
-      else folder = word;
+      if (word == "--seconds" && i + 1 < argc)
+        seconds = std::stod(argv[++i]);
+      else if (word == "--seed" && i + 1 < argc)
+        seed = static_cast<unsigned>(std::stoul(argv[++i]));
+      else
+        folder = word;
     }
   } catch (const std::exception&) {
     folder.clear();
