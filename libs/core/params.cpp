@@ -46,7 +46,10 @@ std::string quoted(const std::string& s) {
   std::string out = "\"";
   for (char c : s) {
     if (c == '"' || c == '\\') out += '\\';
-    out += c;
+    if (c == '\n')
+      out += "\\n";  // a line break in quotes would read back as a space
+    else
+      out += c;
   }
   return out + "\"";
 }

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -22,8 +23,10 @@ class YamlReader final : public ParamVisitor {
   YamlReader(const YAML::Node& map, std::string file, std::string prefix)
       : map_(map), file_(std::move(file)), prefix_(std::move(prefix)) {
     if (map_.IsNull() || !map_.IsDefined()) return;
-    if (!map_.IsMap()) fail(map_, prefix_.empty() ? "the file" : prefix_, "is not a map of keys");
+    const std::string self = prefix_.empty() ? "the file" : prefix_.substr(0, prefix_.size() - 1);
+    if (!map_.IsMap()) fail(map_, self, "is not a map of keys");
     for (const auto& item : map_) {
+      if (!item.first.IsScalar()) fail(item.first, self, "has a key that is not a word");
       const auto key = item.first.as<std::string>();
       if (entries_.count(key)) fail(item.first, prefix_ + key, "is given twice");
       entries_.emplace(key, item.second);
@@ -174,7 +177,8 @@ void readYaml(const std::string& file, const Visit& fields) {
   std::ifstream in(file);
   std::ostringstream text;
   if (in) text << in.rdbuf();
-  if (!in) throw DatasetError::missing(file + ": cannot be read as a configuration file; check the path");
+  if (!in || std::filesystem::is_directory(file))
+    throw DatasetError::missing(file + ": cannot be read as a configuration file; check the path");
   readYamlText(text.str(), file, fields);
 }
 

@@ -88,41 +88,47 @@ void Ekf<N>::start(const PoseBelief& belief) {
 
 template <int N>
 void Ekf<N>::predict(const MotionStep& motion) {
-  if (!(std::isfinite(motion.distance_m) && std::isfinite(motion.turn_rad) && motion.dt_s >= 0)) return;
-  if (motion.still) return;
+  if (motion.still || !(motion.dt_s >= 0)) return;
   double ds = motion.distance_m, turn = motion.turn_rad;
   if constexpr (N > 3) {
     ds *= 1 + x_(kScale);
     if (motion.turn_from_gyro) turn -= x_(kBias) * motion.dt_s;
   }
   const double beta = x_(2) + 0.5 * turn, c = std::cos(beta), s = std::sin(beta);
-  x_(0) += ds * c;
-  x_(1) += ds * s;
-  x_(2) = mrpt::math::wrapToPi(x_(2) + turn);
+  State x = x_;
+  x(0) += ds * c;
+  x(1) += ds * s;
+  x(2) = mrpt::math::wrapToPi(x(2) + turn);
 
-  // (3.9): only the first two rows of F differ from the identity (and the calibration columns).
-  Covariance F = Covariance::Identity();
-  F(0, 2) = -ds * s;
-  F(1, 2) = ds * c;
-  if constexpr (N > 3) {
-    F(0, kScale) = motion.distance_m * c;
-    F(1, kScale) = motion.distance_m * s;
-    if (motion.turn_from_gyro) {
-      F(0, kBias) = 0.5 * ds * s * motion.dt_s;
-      F(1, kBias) = -0.5 * ds * c * motion.dt_s;
-      F(2, kBias) = -motion.dt_s;
+  // F P F' with (3.9): F differs from the identity in the first two rows, by the yaw and the calibration, and in the
+  // third by the bias. Each row, then each column, takes its part of the ones that are not changed yet.
+  Covariance P = P_;
+  const auto transform = [&](auto line) {
+    line(0) += -ds * s * line(2);
+    line(1) += ds * c * line(2);
+    if constexpr (N > 3) {
+      line(0) += motion.distance_m * c * line(kScale);
+      line(1) += motion.distance_m * s * line(kScale);
+      if (!motion.turn_from_gyro) return;
+      line(0) += 0.5 * ds * s * motion.dt_s * line(kBias);
+      line(1) += -0.5 * ds * c * motion.dt_s * line(kBias);
+      line(2) += -motion.dt_s * line(kBias);
     }
-  }
-  Eigen::Matrix<double, 3, 2> W;  // (3.8), by distance and turn instead of v and w
-  W << c, -0.5 * ds * s, s, 0.5 * ds * c, 0, 1;
-  const Eigen::Vector2d q(motion.distance_var, motion.turn_var);
-  P_ = (F * P_ * F.transpose()).eval();
-  P_.template topLeftCorner<3, 3>() += W * q.asDiagonal() * W.transpose();
+  };
+  transform([&P](int i) { return P.row(i); });
+  transform([&P](int i) { return P.col(i); });
+  // (3.8), by distance and turn instead of v and w.
+  const Eigen::Vector3d by_distance(c, s, 0), by_turn(-0.5 * ds * s, 0.5 * ds * c, 1);
+  P.template topLeftCorner<3, 3>() += motion.distance_var * by_distance * by_distance.transpose() +
+                                      motion.turn_var * by_turn * by_turn.transpose();
   if constexpr (N > 3) {
-    P_(kOffset, kOffset) += params_.heading_offset_walk * params_.heading_offset_walk * motion.dt_s;
-    P_(kBias, kBias) += params_.yaw_rate_bias_walk * params_.yaw_rate_bias_walk * motion.dt_s;
-    P_(kScale, kScale) += params_.wheel_scale_walk * params_.wheel_scale_walk * motion.dt_s;
+    P(kOffset, kOffset) += params_.heading_offset_walk * params_.heading_offset_walk * motion.dt_s;
+    P(kBias, kBias) += params_.yaw_rate_bias_walk * params_.yaw_rate_bias_walk * motion.dt_s;
+    P(kScale, kScale) += params_.wheel_scale_walk * params_.wheel_scale_walk * motion.dt_s;
   }
+  if (!x.allFinite() || !P.allFinite()) return;
+  x_ = x;
+  P_ = P;
 }
 
 template <int N>
@@ -178,7 +184,9 @@ template <int M>
 Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1>& nu,
                           const Eigen::Matrix<double, M, N>& H) {
   const Eigen::Matrix<double, M, M> R = m.R.template topLeftCorner<M, M>();
-  Eigen::Matrix<double, M, M> S = H * P_ * H.transpose() + R;
+  if (!R.allFinite() || R.diagonal().minCoeff() < 0) return {Correction::Reason::kNotFinite, 0, M};
+  Covariance before = P_;
+  Eigen::Matrix<double, M, M> S = H * before * H.transpose() + R;
   Eigen::Matrix<double, M, M> S_inverse = S.inverse();
   Correction result{Correction::Reason::kAccepted, nu.dot(S_inverse * nu), M};
   if (!std::isfinite(result.nis) || result.nis < 0) return {Correction::Reason::kNotFinite, 0, M};
@@ -189,16 +197,16 @@ Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1
     }
     // The filter is wrong about itself: open the covariance until this innovation is an ordinary one.
     result.reason = Correction::Reason::kReset;
-    P_ *= result.nis / M;
-    S = H * P_ * H.transpose() + R;
+    before *= result.nis / M;
+    S = H * before * H.transpose() + R;
     S_inverse = S.inverse();
   } else {
     refused_since_[group(m)] = 0;
   }
-  const Eigen::Matrix<double, N, M> K = P_ * H.transpose() * S_inverse;  // (3.3)
-  const State x = x_ + K * nu;                                           // (2.13)
+  const Eigen::Matrix<double, N, M> K = before * H.transpose() * S_inverse;  // (3.3)
+  const State x = x_ + K * nu;                                               // (2.13)
   const Covariance A = Covariance::Identity() - K * H;
-  const Covariance P = A * P_ * A.transpose() + K * R * K.transpose();
+  const Covariance P = A * before * A.transpose() + K * R * K.transpose();
   if (!x.allFinite() || !P.allFinite()) return {Correction::Reason::kNotFinite, 0, M};
   x_ = x;
   x_(2) = mrpt::math::wrapToPi(x_(2));

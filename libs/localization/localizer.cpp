@@ -55,15 +55,20 @@ void Localizer::odometry(int stream, double time_s, const mrpt::obs::CObservatio
   ++use(stream).read;
   start_.begin(time_s);
   const uint64_t index = odometry_count_++;
+  if (index == 0) first_odometry_s_ = time_s;
   const auto step = motion_.addOdometry(time_s, o);
   if (!step) {
     if (index > 0) refuse(stream, "no_increment");
     tryStart(false);
+    if (started_ && time_s > now_s_ + 1e-9) {
+      coastTo(time_s);
+      owe(index);
+    }
     return;
   }
   ++use(stream).used;
   if (!started_) {
-    waiting_.push_back(*step);
+    waiting_.push_back({*step, index});
     odometry_pose_ = composed(odometry_pose_, step->T_from_to);
     start_.track(time_s, odometry_pose_);
     tryStart(false);
@@ -306,14 +311,17 @@ void Localizer::start(const StartBelief& s) {
   now_s_ = base_time_s_ = s.time_s;
   filter_->save(base_state_);
   odometry_pose_ = s.belief.mean;
-  uint64_t index = odometry_count_ - waiting_.size();
-  if (index > 0) --index;
-  owe(index);
-  for (const auto& step : waiting_) {
-    if (step.from_s > now_s_ + 1e-9) coastTo(step.from_s);
-    advanceTo(step.to_s, step.motion);
+  const bool with_odometry = odometry_count_ > 0 && first_odometry_s_ == now_s_;
+  owe(with_odometry ? std::optional<uint64_t>(0) : std::nullopt);
+  for (const auto& [step, index] : waiting_) {
+    if (step.from_s > now_s_ + 1e-9) {
+      coastTo(step.from_s);
+      owe(index - 1);
+    }
+    giveOut();
     odometry_pose_ = composed(odometry_pose_, step.T_from_to);
-    owe(++index);
+    advanceTo(step.to_s, step.motion);
+    owe(index);
   }
   waiting_.clear();
   const auto rest = std::move(pending_);

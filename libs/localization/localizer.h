@@ -126,13 +126,18 @@ class Localizer {
   std::vector<Measurement> pending_;  // sorted by time
   std::vector<Estimate> ready_;
   std::vector<mrpt::math::TPoint2D> fixes_;
-  std::deque<MotionSource::Step> waiting_;  // motion before the start is known
+  struct Waiting {
+    MotionSource::Step step;
+    uint64_t odometry_index;
+  };
+  std::deque<Waiting> waiting_;             // motion before the start is known
   std::vector<double> base_state_;          // state before history_.front()
   std::vector<std::vector<double>> spare_states_;
   double base_time_s_ = 0, now_s_ = 0, last_heading_s_ = 0;
   MotionStep last_motion_;
   mrpt::math::TPose2D odometry_pose_;
   uint64_t odometry_count_ = 0;
+  double first_odometry_s_ = 0;
   bool started_ = false;
   bool owed_ = false;  // an estimate at now_s_ has not been given out yet: measurements of this instant may still come
   std::optional<uint64_t> owed_index_;

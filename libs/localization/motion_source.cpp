@@ -3,6 +3,7 @@
 #include "localization/motion_source.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sidestep {
 
@@ -11,6 +12,7 @@ MotionSource::MotionSource(const OdometryParams& odometry, const ImuParams& imu,
 
 void MotionSource::addYawRate(double time_s, double rate) {
   const double t = time_s - imu_.delay_s;
+  if (!std::isfinite(t) || !std::isfinite(rate)) return;
   if (!rates_.empty() && t <= rates_.back().time_s) return;  // the sorted log has passed it already
   rates_.push_back({t, rate});
   if (rates_.size() > 100000) rates_.pop_front();

@@ -76,14 +76,16 @@ std::optional<OdometryIncrement> OdometryModel::advance(double time_s, const mrp
   }
   const double dt = now.time_s - last_->time_s;
   if (!(dt > 0)) return std::nullopt;
-  poses_move_ = poses_move_ || !(now.pose == last_->pose);
+  const double moved_by = std::abs(now.pose.x - last_->pose.x) + std::abs(now.pose.y - last_->pose.y) +
+                          std::abs(now.pose.phi - last_->pose.phi);
+  poses_move_ = poses_move_ || (moved_by > 0 && std::isfinite(moved_by));
   auto d = displacement(now, pickSource(now));
   const double from = last_->time_s;
   last_ = now;
   d.x *= params_.scale;
   d.y *= params_.scale;
   const double chord = std::hypot(d.x, d.y);
-  if (chord > params_.jump_speed * dt) {
+  if (!(chord <= params_.jump_speed * dt) || !std::isfinite(d.phi)) {
     ++jumps_;
     return std::nullopt;
   }

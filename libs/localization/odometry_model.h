@@ -45,7 +45,7 @@ struct OdometryIncrement {
 class OdometryModel {
  public:
   explicit OdometryModel(const OdometryParams& params);
-  /// Nothing for the first reading, a stamp that does not advance, or a jump.
+  /// Nothing for the first reading, a stamp that does not advance, or a jump (which what is not finite is, too).
   std::optional<OdometryIncrement> advance(double time_s, const mrpt::obs::CObservationOdometry& reading);
   int jumps() const { return jumps_; }
 

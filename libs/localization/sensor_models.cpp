@@ -69,6 +69,7 @@ std::optional<Measurement> GpsModel::measurement(double time_s, const mrpt::obs:
   } else {
     return std::nullopt;
   }
+  if (!std::isfinite(at.lat.decimal_value) || !std::isfinite(at.lon.decimal_value)) return std::nullopt;
   if (!datum_) datum_ = at;
   at.height = datum_->height;  // the plane's own height: a fix's height error must not tilt into x and y
   mrpt::math::TPoint3D enu;

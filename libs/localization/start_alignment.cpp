@@ -46,13 +46,14 @@ void StartAlignment::track(double time_s, const mrpt::math::TPose2D& T_start_bas
 }
 
 void StartAlignment::fix(const Measurement& m) {
+  if (!m.z.allFinite() || !m.R.allFinite()) return;
   const auto lever = rotated(T_start_base_.phi, {m.p_base_sensor.x(), m.p_base_sensor.y()});
   if (pairs_.size() < 5000)
     pairs_.push_back({{T_start_base_.x + lever.x, T_start_base_.y + lever.y}, {m.z.x(), m.z.y()}, m.R(0, 0)});
 }
 
 void StartAlignment::heading(const Measurement& m) {
-  if (heading_) return;
+  if (heading_ || !m.z.allFinite() || !m.R.allFinite()) return;
   heading_ = m.z(0);
   heading_var_ = m.R(0, 0);
   heading_track_ = T_start_base_;
