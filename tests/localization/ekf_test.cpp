@@ -472,6 +472,7 @@ template <int N>
 double meanNees() {
   EkfParams params;
   params.gate = false;
+  params.heading_offset_sd = 0;
   if (N > 3) {
     params.heading_offset_sd = 0.1;
     params.yaw_rate_bias_sd = 0.01;
@@ -540,10 +541,12 @@ TEST(EkfCalibration, LearnsTheBiasOfAGyroAtRest) {
 }
 
 TEST(MakeEkf, TakesTheSmallestFilterThatServes) {
-  EXPECT_NE(dynamic_cast<Ekf<3>*>(makeEkf({}).get()), nullptr);
+  EkfParams known;
+  known.heading_offset_sd = 0;
+  EXPECT_NE(dynamic_cast<Ekf<3>*>(makeEkf(known).get()), nullptr);
   for (double EkfParams::*sd :
        {&EkfParams::heading_offset_sd, &EkfParams::yaw_rate_bias_sd, &EkfParams::wheel_scale_sd}) {
-    EkfParams params;
+    EkfParams params = known;
     params.*sd = 0.1;
     EXPECT_NE(dynamic_cast<Ekf<6>*>(makeEkf(params).get()), nullptr);
   }

@@ -372,6 +372,25 @@ TEST(Localizer, StartsAtTheOriginAtTheEndOfALogWithoutFixes) {
   EXPECT_NEAR(estimates.back().belief.mean.phi, 1, 1e-9);
 }
 
+TEST(Localizer, DoesNotStartFromFixesOrHeadingsThatAreNotFinite) {
+  Expectation expect;
+  expect.positions = expect.heading = true;
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Robot robot({}, expect);
+    robot.wheels(0, {0, 0, 0});
+    robot.yaw(0, bad);
+    robot.fix(0, bad, 0);
+    EXPECT_FALSE(robot.localizer.started());
+    robot.yaw(0.1, 0.5);
+    robot.fix(0.1, 7, -3);
+    EXPECT_TRUE(robot.localizer.started());
+    robot.wheels(0.2, {0, 0, 0});
+    const auto last = robot.finish().back().belief;
+    EXPECT_NEAR(last.mean.x, 7, 1e-9);
+    EXPECT_NEAR(last.mean.phi, 0.5, 1e-9);
+  }
+}
+
 TEST(Localizer, HasNothingToSayOfAnEmptyLog) {
   Robot robot;
   EXPECT_TRUE(robot.finish().empty());

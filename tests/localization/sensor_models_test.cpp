@@ -153,7 +153,7 @@ TEST(HeadingMeasurement, CarriesNoiseAndDelay) {
   ImuParams params;
   params.heading_sd = 0.2;
   params.delay_s = 0.5;
-  const auto m = headingMeasurement(params, kStart_s, 1);
+  const auto m = headingMeasurement(params, kStart_s, 1, 0.1);
   EXPECT_EQ(m.time_s, kStart_s - 0.5);
   EXPECT_EQ(m.z(0), 1);
   EXPECT_NEAR(m.R(0, 0), 0.04, 1e-15);
