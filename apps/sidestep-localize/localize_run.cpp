@@ -67,7 +67,7 @@ class Run {
         reader_(options.log, readerOptions(options, config)),
         localizer_(config.robot, makeEkf(config.ekf), expectation(config)),
         truth_(options.ground_truth, config),
-        writer_(folder_.file("estimate.rawlog"), commandLine()),
+        writer_(folder_.file("estimate.rawlog"), commandLine(), LogWriter::Flush::kBySize),
         tum_(folder_.file("trajectory.tum")) {}
 
   ExitCode go();
