@@ -15,8 +15,8 @@
 
 #include "common/program.h"
 #include "datasets/log_reader.h"
-#include "datasets/log_writer.h"
 #include "evaluation/metrics_json.h"
+#include "sidestep-localize/ordered_log.h"
 #include "sidestep-localize/truth_comparison.h"
 
 namespace sidestep {
@@ -67,7 +67,7 @@ class Run {
         reader_(options.log, readerOptions(options, config)),
         localizer_(config.robot, makeEkf(config.ekf), expectation(config)),
         truth_(options.ground_truth, config),
-        writer_(folder_.file("estimate.rawlog"), commandLine(), LogWriter::Flush::kBySize),
+        log_(folder_.file("estimate.rawlog"), commandLine()),
         tum_(folder_.file("trajectory.tum")) {}
 
   ExitCode go();
@@ -100,7 +100,7 @@ class Run {
   LogReader reader_;
   Localizer localizer_;
   TruthComparison truth_;
-  LogWriter writer_;
+  OrderedLog log_;
   TumWriter tum_;
   TrajectoryFigure figure_;
   Ellipses ellipses_;
@@ -145,7 +145,7 @@ void Run::handle(const LogEntry& e) {
   if (first_s_ == 0) first_s_ = e.time_s;
   last_s_ = e.time_s;
   if (e.kind == SensorKind::kEstimate) return;  // a log of ours, localized again: the new estimate replaces the old
-  writer_.write(*e.observation);
+  log_.input(e.time_s, *e.observation);
   if (e.kind == SensorKind::kGroundTruth) {
     if (const auto* p = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(e.observation.get()))
       truth_.push(e.time_s, {p->pose.mean.x(), p->pose.mean.y(), p->pose.mean.yaw()});
@@ -157,7 +157,7 @@ void Run::handle(const LogEntry& e) {
 
 void Run::take() {
   for (const auto& e : localizer_.takeEstimates()) {
-    writer_.write(asObservation(e));
+    log_.estimate(e.time_s, asObservation(e));
     tum_.write(e.time_s, e.belief.mean);
     figure_.estimate.add(e.belief.mean.x, e.belief.mean.y);
     figure_.odometry.add(e.odometry.x, e.odometry.y);
@@ -246,7 +246,7 @@ ExitCode Run::go() {
   localizer_.finish();
   take();
   truth_.finish();
-  writer_.close();
+  log_.close();
   tum_.close();
   if (reader_.end().damaged) warn(reader_.end().message);
   auto m = metrics();
