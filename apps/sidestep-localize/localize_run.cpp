@@ -189,11 +189,12 @@ void Run::draw(const LocalizationMetrics& m) const {
 void Run::checkSensors() {
   std::string labels;
   for (const auto& [label, kind] : feed_.kinds()) labels += (labels.empty() ? "" : ", ") + label;
-  const std::string hint = " (used: " + (labels.empty() ? std::string("nothing") : labels) +
-                           "); see sidestep-rawlog info, and --label";
+  const std::string hint =
+      " (used: " + (labels.empty() ? std::string("nothing") : labels) + "); see sidestep-rawlog info, and --label";
   if (estimates_ == 0) throw DatasetError::missing(options_.log + ": no odometry to localize with" + hint);
   for (const auto& sensor : config_.sensors)
-    if (!used(sensor)) throw DatasetError::missing(options_.log + ": nothing of sensor '" + sensor + "' was usable" + hint);
+    if (!used(sensor))
+      throw DatasetError::missing(options_.log + ": nothing of sensor '" + sensor + "' was usable" + hint);
 }
 
 ExitCode Run::go() {
@@ -206,7 +207,8 @@ ExitCode Run::go() {
       if (!entry) break;
       handle(*entry);
       if (++count % 256 == 0)
-        bar.update(static_cast<double>(reader_.bytesConsumed()) / std::max(1.0, static_cast<double>(reader_.fileSize())));
+        bar.update(static_cast<double>(reader_.bytesConsumed()) /
+                   std::max(1.0, static_cast<double>(reader_.fileSize())));
     }
   }
   localizer_.finish();

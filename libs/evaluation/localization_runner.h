@@ -8,8 +8,8 @@
 
 namespace sidestep {
 
-/// Studies of kind `localization`: a scenario is a simulated drive (`file`, `set`) or a real log (`log`), with a robot's
-/// configuration and perhaps an interruption of signals; an algorithm is what it changes in that configuration.
+/// Studies of kind `localization`: a scenario is a simulated drive (`file`, `set`) or a real log (`log`), with a
+/// robot's configuration and perhaps an interruption of signals; an algorithm is what it changes in that configuration.
 std::unique_ptr<StudyRunner> makeLocalizationRunner(const std::string& study_file);
 
 }  // namespace sidestep

@@ -112,7 +112,8 @@ void Study::check() const {
     const auto& e = entries_[i];
     const std::string where = file_ + ": scenarios." + scenarios_[i];
     if (e.axis.empty() != e.x.empty()) throw ConfigError(where + ": axis and x belong together");
-    if (!e.axis.empty() && !contains(runner_->axes(), e.axis)) unknown(where + ".axis", "axis", e.axis, runner_->axes());
+    if (!e.axis.empty() && !contains(runner_->axes(), e.axis))
+      unknown(where + ".axis", "axis", e.axis, runner_->axes());
   }
   for (const auto& name : algorithms_) checkName(name, file_ + ": algorithms");
   for (const auto& row : rows_)

@@ -128,8 +128,8 @@ bool RunsFile::parse(const std::string& line, StudyRun& run) const {
   const auto c = cells(line);
   if (c.size() != 4 + metrics_.size()) return false;
   const auto& rows = study_.rows();
-  run.row = static_cast<size_t>(
-      std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == c[0]; }) - rows.begin());
+  run.row = static_cast<size_t>(std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == c[0]; }) -
+                                rows.begin());
   run.algorithm = position(study_.algorithms(), c[1]);
   double number = -1;
   if (run.row == rows.size() || run.algorithm == study_.algorithms().size() || !parseNumber(c[2], number)) return false;

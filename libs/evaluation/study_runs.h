@@ -19,7 +19,8 @@ struct StudyRun {
 /// runs.csv: a row as soon as a run is finished, in that order; `finish` puts them into the order of the matrix.
 class RunsFile {
  public:
-  /// Opens `file`: with `resume` what is whole in it is taken over (and a row that was cut is dropped), else it is begun.
+  /// Opens `file`: with `resume` what is whole in it is taken over (and a row that was cut is dropped), else it is
+  /// begun.
   /// @throws ConfigError if the file is not one of this study.
   RunsFile(const Study& study, const std::string& file, bool resume);
   ~RunsFile();

@@ -13,8 +13,8 @@
 namespace sidestep {
 
 const std::vector<std::string>& statisticWords() {
-  static const std::vector<std::string> words = {"n", "mean", "sd", "ci_low", "ci_high", "reference", "difference",
-                                                 "p_value"};
+  static const std::vector<std::string> words = {"n",       "mean",      "sd",         "ci_low",
+                                                 "ci_high", "reference", "difference", "p_value"};
   return words;
 }
 
@@ -50,7 +50,8 @@ StudyStatement parseStatement(const std::string& text, const std::string& where)
   s.text = text;
   std::istringstream in(text);
   std::string number, rest;
-  if (!(in >> s.scenario >> s.algorithm >> s.metric >> s.comparison >> number) || (in >> rest)) fail("is not five words");
+  if (!(in >> s.scenario >> s.algorithm >> s.metric >> s.comparison >> number) || (in >> rest))
+    fail("is not five words");
   static const std::vector<std::string> comparisons = {"<=", ">=", "<", ">", "="};
   if (std::find(comparisons.begin(), comparisons.end(), s.comparison) == comparisons.end())
     fail("'" + s.comparison + "' is no comparison");

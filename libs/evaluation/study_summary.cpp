@@ -180,9 +180,8 @@ std::string summaryTable(const Study& study, const std::vector<SummaryLine>& lin
       out += "  ";
       out += padded(l.scenario, scenario_width) + padded(l.algorithm_name, algorithm_width) +
              leftPadded(std::to_string(l.summary.n), 4) + leftPadded(shown(l.summary.mean), 10) +
-             padded(interval(l.summary), 22) +
-             leftPadded(shown(l.reference.value_or(kNaN)), 9) + leftPadded(shown(l.difference.value_or(kNaN)), 10) +
-             leftPadded(shown(l.p_value.value_or(kNaN)), 6) + "\n";
+             padded(interval(l.summary), 22) + leftPadded(shown(l.reference.value_or(kNaN)), 9) +
+             leftPadded(shown(l.difference.value_or(kNaN)), 10) + leftPadded(shown(l.p_value.value_or(kNaN)), 6) + "\n";
     }
   }
   return out;

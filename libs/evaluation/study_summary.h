@@ -15,10 +15,10 @@ struct SummaryLine {
   size_t row = 0, algorithm = 0;
   std::string scenario, algorithm_name, metric;
   SampleSummary summary;
-  std::optional<double> reference;  ///< the published number
-  std::string baseline;             ///< empty for the baseline itself, or if there is none
-  std::optional<double> difference; ///< mean of (this - baseline) over the runs that both have
-  std::optional<double> p_value;    ///< of that difference, see signFlipPValue
+  std::optional<double> reference;   ///< the published number
+  std::string baseline;              ///< empty for the baseline itself, or if there is none
+  std::optional<double> difference;  ///< mean of (this - baseline) over the runs that both have
+  std::optional<double> p_value;     ///< of that difference, see signFlipPValue
 
   /// A column by its name; NaN where there is nothing.
   double statistic(const std::string& word) const;
