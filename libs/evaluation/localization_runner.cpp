@@ -49,7 +49,7 @@ struct ScenarioEntry {
 
 bool isBlank(const std::string& yaml) { return yaml.find_first_not_of(" \n") == std::string::npos; }
 
-/// A writer that stops short of nothing: all of `fields` as YAML, comments left out.
+/// All of `fields` as YAML without its comments.
 std::string plainYaml(const Visit& fields) {
   std::string out, all = writeYaml(fields);
   for (size_t at = 0; at < all.size();) {
@@ -115,7 +115,13 @@ void LocalizationRunner::load(ScenarioEntry& s, const std::string& where) const 
     return;
   }
   LocalizationScenarioParams params;
-  const Visit fields = [&](ParamVisitor& v) { params.visit(v); };
+  std::string kind = "localization";
+  int seed = 1;  // of the file; a study has its own
+  const Visit fields = [&](ParamVisitor& v) {
+    v.choice("kind", kind, {"localization"}, "what the scenario is about");
+    v.integer("seed", seed, {0, 2e9}, "not used in a study");
+    params.visit(v);
+  };
   if (!s.file.empty()) readYaml(resolvedPath(s.file, file_), fields);
   readYamlText(s.set, file_, fields);
   s.simulated = std::make_shared<const LocalizationScenario>(params);
