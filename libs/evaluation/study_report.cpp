@@ -22,10 +22,13 @@ constexpr const char* kStyle =
     "img{max-width:100%;border:1px solid #eee;margin:.5em 0}pre{background:#f6f6f6;padding:.8em;overflow-x:auto}"
     "td.text{text-align:left}";
 
-std::string shown(double value, const char* format = "%.4g") {
+std::string shown(double value, int digits = 4, bool sign = false) {
   if (!std::isfinite(value)) return "&ndash;";
   std::array<char, 40> text;
-  std::snprintf(text.data(), text.size(), format, value);
+  if (sign)
+    std::snprintf(text.data(), text.size(), "%+.*g", digits, value);
+  else
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
 }
 
@@ -39,7 +42,7 @@ std::string cell(const SummaryLine& l) {
   if (l.reference) add(out, {"<small class=\"pub\">published ", shown(*l.reference), "</small>"});
   if (l.difference)
     add(out,
-        {"<small>&Delta; ", shown(*l.difference, "%+.3g"), ", p ", shown(l.p_value.value_or(NAN), "%.2g"), "</small>"});
+        {"<small>&Delta; ", shown(*l.difference, 3, true), ", p ", shown(l.p_value.value_or(NAN), 2), "</small>"});
   return out + "</td>";
 }
 
