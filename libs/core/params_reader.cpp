@@ -121,7 +121,9 @@ class YamlReader final : public ParamVisitor {
     const auto n = take(key);
     if (!n) return;
     if (!n->IsMap() && !n->IsNull()) fail(*n, prefix_ + key, "is not a map of keys");
-    yaml = std::string(static_cast<size_t>(std::max(0, n->Mark().line)), '\n') + YAML::Dump(*n) + "\n";
+    // Counted from the first key: the mark of a map with an anchor is that of the anchor.
+    const int line = n->size() > 0 ? n->begin()->first.Mark().line : 0;
+    yaml = std::string(static_cast<size_t>(std::max(0, line)), '\n') + YAML::Dump(*n) + "\n";
   }
 
   /// All keys that were not asked for are unknown.

@@ -15,7 +15,8 @@ namespace sidestep {
 /// One row of the matrix: a scenario, or one x of a scenario that is run over an axis.
 struct StudyRow {
   std::string name;     ///< the entry's, with `@x` where it has an axis
-  std::string group;    ///< what the figures put together
+  std::string group;    ///< rows that share a figure, and the worlds of their runs
+  std::string axis;     ///< what x is
   size_t scenario = 0;  ///< index of the entry
   std::optional<double> x;
 };

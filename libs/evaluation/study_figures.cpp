@@ -66,7 +66,7 @@ std::string head(const std::string& title, const std::string& png, int width, in
          gnuplotQuoted(title) +
          " noenhanced font ',13'\nset border 3 lc rgb '#404040'\nset tics nomirror out\n"
          "set grid ytics back lt 1 lc rgb '#e4e4e4' lw 1\n"
-         "set key outside below center horizontal Left reverse noenhanced samplen 2 spacing 1.2\n";
+         "set key outside below center horizontal Left reverse noenhanced samplen 2 spacing 1.2 width 3\n";
 }
 
 std::string logarithm(const char* axis) { return std::string("set logscale ") + axis + " 10\n"; }
@@ -95,11 +95,11 @@ void drawBars(const Study& study, const std::string& metric, const Lines& lines,
     blocks += block + " << EOD\n" + data + "EOD\n";
     plots += block + " using 1:2:5 with boxes fs solid 0.85 noborder lc rgb '" + colour(a) + "' title " +
              gnuplotQuoted(algorithms[a]) + ", " + block +
-             " using 1:2:3:4 with yerrorbars pt -1 lw 1.2 lc rgb '#202020' notitle, ";
+             " using 1:2:3:4 with yerrorbars ps 0 lw 1.2 lc rgb '#202020' notitle, ";
   }
   if (!published.empty()) {
     blocks += "$p << EOD\n" + published + "EOD\n";
-    plots += "$p using 1:2:3 with xerrorbars pt -1 lw 2.5 lc rgb '#c00000' title 'published', ";
+    plots += "$p using 1:2:3 with xerrorbars ps 0 lw 2.5 lc rgb '#c00000' title 'published', ";
   }
   if (plots.empty()) return;
   plots.resize(plots.size() - 2);
@@ -142,7 +142,7 @@ void drawCurves(const Study& study, const std::string& metric, const std::string
   curves.resize(curves.size() - 2);
   runGnuplot(blocks + head(group + ": " + axisTitle(metric) + ", mean and 95 % band", png, 900, 600) +
                  (wantsLogarithm(lines) ? logarithm("y") : "set yrange [0:*]\n") + logarithm("x") +
-                 "set xlabel 'x of the scenario (see its axis)'\nset ylabel " + gnuplotQuoted(axisTitle(metric)) +
+                 "set xlabel " + gnuplotQuoted(axisTitle(study.rows()[lines.front()->row].axis)) + "\nset ylabel " + gnuplotQuoted(axisTitle(metric)) +
                  "\nplot " + bands + curves + "\nunset output\n",
              png);
 }

@@ -16,7 +16,7 @@ struct StudyPlace {
   size_t scenario = 0;      ///< entry of the study's list of scenarios
   std::optional<double> x;  ///< the entry's value on the axis, if it has any
   size_t algorithm = 0;
-  uint64_t world_seed = 0;      ///< same for all algorithms and all x of one entry: they meet the same world
+  uint64_t world_seed = 0;      ///< same for all algorithms, and all scenarios of a group: they meet the same world
   uint64_t algorithm_seed = 0;  ///< of what the algorithm itself draws
 };
 
