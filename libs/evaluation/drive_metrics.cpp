@@ -20,7 +20,8 @@ double neesOf(const PosePair& p) {
   const Eigen::Vector3d e(p.estimate.x - p.truth.x, p.estimate.y - p.truth.y,
                           mrpt::math::wrapToPi(p.estimate.phi - p.truth.phi));
   const Eigen::LDLT<Eigen::Matrix3d> solver(p.covariance);
-  // A covariance that knows one direction exactly (the first steps from an exact start) says nothing of the error in it.
+  // A covariance that knows one direction exactly (the first steps from an exact start) says nothing of the error in
+  // it.
   const auto& d = solver.vectorD();
   if (solver.info() != Eigen::Success || !(d.minCoeff() > 1e-9 * d.maxCoeff())) return kNaN;
   return e.dot(solver.solve(e));
@@ -38,52 +39,70 @@ struct Mean {
 };
 
 struct LossMetrics {
-  double mean = kNaN, at_end = kNaN, recovery_s = kNaN;
+  double mean = kNaN, at_end = kNaN, added = kNaN, recovery_s = kNaN;
 };
 
-/// The 95 % quantile of the errors between settle_s and the loss.
-double ordinaryError(const std::vector<PosePair>& pairs, const SignalLoss& loss, double settle_s) {
-  std::vector<double> before;
+/// The 95 % quantile of the errors from settle_s on.
+double ordinaryError(const std::vector<PosePair>& pairs, double settle_s) {
+  std::vector<double> errors;
   for (const auto& p : pairs)
-    if (p.time_s >= settle_s && p.time_s < loss.from_s) before.push_back(errorOf(p));
-  if (before.empty()) return kNaN;
-  const auto at = before.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(before.size() - 1));
-  std::nth_element(before.begin(), at, before.end());
+    if (p.time_s >= settle_s) errors.push_back(errorOf(p));
+  if (errors.empty()) return kNaN;
+  const auto at = errors.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(errors.size() - 1));
+  std::nth_element(errors.begin(), at, errors.end());
   return *at;
 }
 
-LossMetrics lossMetrics(const std::vector<PosePair>& pairs, const SignalLoss& loss, double settle_s) {
+/// Errors of a twin, by time.
+class ErrorAt {
+ public:
+  explicit ErrorAt(const std::vector<PosePair>& pairs) : pairs_(pairs) {}
+  /// Of the last pair up to that time; times must not decrease. NaN before the first.
+  double operator()(double time_s) {
+    while (next_ < pairs_.size() && pairs_[next_].time_s <= time_s) ++next_;
+    return next_ > 0 ? errorOf(pairs_[next_ - 1]) : kNaN;
+  }
+
+ private:
+  const std::vector<PosePair>& pairs_;
+  size_t next_ = 0;
+};
+
+LossMetrics lossMetrics(const std::vector<PosePair>& pairs, const std::vector<PosePair>& twin, const SignalLoss& loss,
+                        double settle_s) {
   LossMetrics m;
   if (!loss.any() || pairs.empty()) return m;
-  const double ordinary = ordinaryError(pairs, loss, settle_s);
+  const double ordinary = ordinaryError(twin, settle_s);
+  ErrorAt twin_error(twin);
   Mean mean;
   bool recovered = false;
   for (const auto& p : pairs) {
-    const double error = errorOf(p);
+    const double error = errorOf(p), without = twin_error(p.time_s);
     if (loss.covers(p.time_s)) {
       mean.add(error);
       m.at_end = error;
+      m.added = error - without;
     }
     if (p.time_s < loss.to_s || recovered) continue;
     m.recovery_s = p.time_s - loss.to_s;
-    recovered = error <= ordinary;
+    recovered = error <= std::max(ordinary, without);
   }
   m.mean = mean.value();
-  if (!std::isfinite(ordinary)) m.recovery_s = kNaN;
   return m;
 }
 
 }  // namespace
 
 const std::vector<std::string>& driveMetricNames() {
-  static const std::vector<std::string> names = {"mean_error_m", "mean_square_error_m2", "rmse_m",
-                                                 "max_error_m",  "final_error_m",        "heading_mean_error_deg",
-                                                 "mean_nees",    "outage_error_m",       "outage_end_error_m",
-                                                 "recovery_s"};
+  static const std::vector<std::string> names = {
+      "mean_error_m",       "mean_square_error_m2",   "rmse_m",    "max_error_m",
+      "final_error_m",      "heading_mean_error_deg", "mean_nees", "outage_error_m",
+      "outage_end_error_m", "outage_added_m",         "recovery_s"};
   return names;
 }
 
-std::vector<double> driveMetrics(const DriveResult& result, const SignalLoss& loss, double settle_s) {
+std::vector<double> driveMetrics(const DriveResult& result, const DriveResult& twin, const SignalLoss& loss,
+                                 double settle_s) {
   Mean error, square, heading, nees;
   double largest = kNaN;
   for (const auto& p : result.pairs) {
@@ -97,7 +116,7 @@ std::vector<double> driveMetrics(const DriveResult& result, const SignalLoss& lo
   double spread = 0;  // of the error about its mean
   for (const auto& p : result.pairs) spread += std::pow(errorOf(p) - error.value(), 2);
   const double n = static_cast<double>(result.pairs.size());
-  const LossMetrics lost = lossMetrics(result.pairs, loss, settle_s);
+  const LossMetrics lost = lossMetrics(result.pairs, twin.pairs, loss, settle_s);
   return {error.value(),
           n > 0 ? spread / n : kNaN,
           std::sqrt(square.value()),
@@ -107,6 +126,7 @@ std::vector<double> driveMetrics(const DriveResult& result, const SignalLoss& lo
           nees.value(),
           lost.mean,
           lost.at_end,
+          lost.added,
           lost.recovery_s};
 }
 

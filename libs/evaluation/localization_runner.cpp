@@ -27,8 +27,7 @@ struct Interruption {
     v.flag("drawn", drawn, "the run's seed says when");
     v.number("from_s", from_s, {0, 1e6}, "s", "else it begins here, after the start of the drive");
     v.number("length_s", length_s, {0, 1e6}, "s", "how long; the axis outage_s varies it");
-    v.number("settle_s", settle_s, {0, 1e6}, "s",
-             "no loss before this, and errors before it are not counted as ordinary");
+    v.number("settle_s", settle_s, {0, 1e6}, "s", "no loss before this, and errors before it do not count as ordinary");
     v.number("recover_s", recover_s, {0, 1e6}, "s", "left after the loss when its time is drawn");
   }
 };
@@ -124,6 +123,14 @@ void LocalizationRunner::load(ScenarioEntry& s, const std::string& where) const 
   };
   if (!s.file.empty()) readYaml(resolvedPath(s.file, file_), fields);
   readYamlText(s.set, file_, fields);
+  if (s.interruption.loses == "none" && params.roof.loses != "none") {
+    // The drive's own roof is taken as the interruption, so that the twin without it can be run.
+    s.interruption.loses = params.roof.loses;
+    s.interruption.drawn = false;
+    s.interruption.from_s = params.roof.from_s;
+    s.interruption.length_s = params.roof.to_s - params.roof.from_s;
+    params.roof.loses = "none";
+  }
   s.simulated = std::make_shared<const LocalizationScenario>(params);
   s.file.clear();  // from here on all of it stands in `set`
   s.set = plainYaml(fields);
@@ -173,11 +180,7 @@ SignalLoss LocalizationRunner::lossOf(const StudyPlace& place) const {
   const auto& s = scenarios_[place.scenario];
   const auto& cut = s.interruption;
   SignalLoss loss{cut.loses == "theta" || cut.loses == "all", cut.loses == "xy" || cut.loses == "all", 0, 0};
-  if (cut.loses == "none" && s.simulated) {  // the scenario's own roof, so that its metrics are taken
-    const auto& roof = s.simulated->params().roof;
-    return {roof.loses == "theta" || roof.loses == "all", roof.loses == "xy" || roof.loses == "all", roof.from_s,
-            roof.to_s};
-  }
+  if (cut.loses == "none") return loss;
   const double length = place.x.value_or(cut.length_s);
   loss.from_s = cut.from_s;
   if (cut.drawn) {
@@ -204,7 +207,8 @@ DriveResult LocalizationRunner::localize(const StudyPlace& place, const SignalLo
 
 std::vector<double> LocalizationRunner::run(const StudyPlace& place) const {
   const SignalLoss loss = lossOf(place);
-  return driveMetrics(localize(place, loss), loss, scenarios_[place.scenario].interruption.settle_s);
+  const DriveResult twin = loss.any() ? localize(place, {}) : DriveResult{};
+  return driveMetrics(localize(place, loss), twin, loss, scenarios_[place.scenario].interruption.settle_s);
 }
 
 bool LocalizationRunner::draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const {

@@ -69,7 +69,8 @@ void Study::visit(ParamVisitor& v) {
   v.groups("scenarios", scenarios_, "what is run through", [this](const std::string& name, ParamVisitor& w) {
     const auto i = static_cast<size_t>(std::find(scenarios_.begin(), scenarios_.end(), name) - scenarios_.begin());
     if (entries_.size() <= i) entries_.resize(i + 1);
-    w.text("group", entries_[i].group, "scenarios of a group share a figure and the worlds of their runs; empty: the name");
+    w.text("group", entries_[i].group,
+           "scenarios of a group share a figure and the worlds of their runs; empty: the name");
     w.text("axis", entries_[i].axis, "what is varied over the values of x");
     w.texts("x", entries_[i].x, "values on that axis, one row of the matrix each");
     runner_->visitScenario(i, w);
@@ -90,7 +91,8 @@ void Study::layOut() {
     const std::string group = e.group.empty() ? scenarios_[i] : e.group;
     if (e.x.empty()) rows_.push_back({scenarios_[i], group, "", i, std::nullopt});
     for (const auto& x : e.x)
-      rows_.push_back({scenarios_[i] + "@" + x, group, e.axis, i, toNumber(x, file_ + ": scenarios." + scenarios_[i] + ".x")});
+      rows_.push_back(
+          {scenarios_[i] + "@" + x, group, e.axis, i, toNumber(x, file_ + ": scenarios." + scenarios_[i] + ".x")});
   }
   parsed_references_.clear();
   parsed_expect_.clear();

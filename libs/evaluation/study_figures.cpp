@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "evaluation/gnuplot.h"
 
@@ -69,6 +70,11 @@ std::string head(const std::string& title, const std::string& png, int width, in
          "set key outside below center horizontal Left reverse noenhanced samplen 2 spacing 1.2 width 3\n";
 }
 
+/// Room around the data; a logarithmic axis would else go on to the next power of ten.
+std::string rangeAround(const char* axis, double low, double high) {
+  return std::string("set ") + axis + "range [" + shortestNumber(low * 0.8) + ":" + shortestNumber(high * 1.25) + "]\n";
+}
+
 std::string logarithm(const char* axis) { return std::string("set logscale ") + axis + " 10\n"; }
 
 /// Rows of the table without an axis: a cluster a scenario, a bar an algorithm.
@@ -126,7 +132,20 @@ void drawCurves(const Study& study, const std::string& metric, const std::string
     if (std::isfinite(l->summary.mean))
       addNumbers(data[{row.scenario, l->algorithm}], {*row.x, l->summary.mean, l->summary.ci_low, l->summary.ci_high});
   }
-  std::string blocks, bands, curves;
+  std::string blocks, bands, curves, tics;
+  std::set<double> tic_values;
+  double low = INFINITY, high = 0, least = INFINITY, most = 0;
+  for (const auto* l : lines) {
+    const double x = *study.rows()[l->row].x;
+    low = std::min(low, x), high = std::max(high, x);
+    if (l->summary.n > 0) least = std::min(least, l->summary.ci_low), most = std::max(most, l->summary.ci_high);
+    tic_values.insert(x);
+  }
+  for (const double x : tic_values) {
+    if (!tics.empty()) tics += ", ";
+    tics += shortestNumber(x);
+  }
+  const bool log_x = low > 0;
   size_t number = 0;
   for (const auto& [key, text] : data) {
     const std::string block = "$c" + std::to_string(number);
@@ -141,9 +160,10 @@ void drawCurves(const Study& study, const std::string& metric, const std::string
   if (curves.empty()) return;
   curves.resize(curves.size() - 2);
   runGnuplot(blocks + head(group + ": " + axisTitle(metric) + ", mean and 95 % band", png, 900, 600) +
-                 (wantsLogarithm(lines) ? logarithm("y") : "set yrange [0:*]\n") + logarithm("x") +
-                 "set xlabel " + gnuplotQuoted(axisTitle(study.rows()[lines.front()->row].axis)) + "\nset ylabel " + gnuplotQuoted(axisTitle(metric)) +
-                 "\nplot " + bands + curves + "\nunset output\n",
+                 (wantsLogarithm(lines) ? logarithm("y") + rangeAround("y", least, most) : "set yrange [0:*]\n") +
+                 (log_x ? logarithm("x") + rangeAround("x", low, high) : "") + "set xtics (" + tics + ")\nset xlabel " +
+                 gnuplotQuoted(axisTitle(study.rows()[lines.front()->row].axis)) + " offset 0,0.6\nset ylabel " +
+                 gnuplotQuoted(axisTitle(metric)) + "\nplot " + bands + curves + "\nunset output\n",
              png);
 }
 

@@ -41,8 +41,7 @@ std::string cell(const SummaryLine& l) {
                     shown(l.summary.ci_high) + "</small>";
   if (l.reference) add(out, {"<small class=\"pub\">published ", shown(*l.reference), "</small>"});
   if (l.difference)
-    add(out,
-        {"<small>&Delta; ", shown(*l.difference, 3, true), ", p ", shown(l.p_value.value_or(NAN), 2), "</small>"});
+    add(out, {"<small>&Delta; ", shown(*l.difference, 3, true), ", p ", shown(l.p_value.value_or(NAN), 2), "</small>"});
   return out + "</td>";
 }
 
