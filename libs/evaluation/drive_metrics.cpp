@@ -75,7 +75,7 @@ LossMetrics lossMetrics(const std::vector<PosePair>& pairs, const std::vector<Po
   const double ordinary = ordinaryError(twin, settle_s);
   ErrorAt twin_error(twin);
   Mean mean;
-  bool recovered = false;
+  bool recovered = false, first = true;
   for (const auto& p : pairs) {
     const double error = errorOf(p), without = twin_error(p.time_s);
     if (loss.covers(p.time_s)) {
@@ -86,6 +86,8 @@ LossMetrics lossMetrics(const std::vector<PosePair>& pairs, const std::vector<Po
     if (p.time_s < loss.to_s || recovered) continue;
     m.recovery_s = p.time_s - loss.to_s;
     recovered = error <= std::max(ordinary, without);
+    if (first && recovered) m.recovery_s = 0;
+    first = false;
   }
   m.mean = mean.value();
   return m;
