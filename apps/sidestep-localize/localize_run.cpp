@@ -64,7 +64,7 @@ class Run {
         localizer_(config.robot, makeFilter(config, static_cast<uint64_t>(config.seed)), config.expectation()),
         feed_(config, localizer_),
         truth_(options.ground_truth, config),
-        writer_(folder_.file("estimate.rawlog"), commandLine()),
+        writer_(folder_.file("estimate.rawlog"), commandLine(), LogWriter::Flush::kBySize),
         tum_(folder_.file("trajectory.tum")) {}
 
   ExitCode go();

@@ -18,7 +18,10 @@ GzipFile::GzipFile(const std::string& file) : name_(file) {
   fd_ = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   const int copy = fd_ < 0 ? -1 : fcntl(fd_, F_DUPFD_CLOEXEC, 0);  // zlib closes its own; this one is for fsync
   if (copy >= 0) gz_ = gzdopen(copy, "wb1");
-  if (gz_ != nullptr) return;
+  if (gz_ != nullptr) {
+    gzbuffer(gz_, 1 << 16);
+    return;
+  }
   const std::string reason = std::strerror(errno);
   if (copy >= 0) ::close(copy);
   if (fd_ >= 0) ::close(fd_);

@@ -24,8 +24,9 @@ mrpt::obs::CObservationComment comment(const std::string& text) {
 }  // namespace
 
 struct LogWriter::Impl {
-  explicit Impl(const std::string& name) : file(name) {}
+  Impl(const std::string& name, Flush when) : file(name), flush(when) {}
   GzipFile file;
+  const Flush flush;
   uint64_t count = 0;
   double flushed_s = -1e18;
   size_t unflushed = 0;
@@ -35,9 +36,19 @@ struct LogWriter::Impl {
     flushed_s = time_s;
     file.flush();
   }
+  void write(std::string_view bytes) {
+    unflushed += bytes.size();
+    if (unflushed > kFlushBytes) {
+      file.flush();
+      unflushed = 0;
+    }
+    file.write(bytes);
+    ++count;
+  }
 };
 
-LogWriter::LogWriter(const std::string& file, const std::string& header) : impl_(std::make_unique<Impl>(file)) {
+LogWriter::LogWriter(const std::string& file, const std::string& header, Flush flush)
+    : impl_(std::make_unique<Impl>(file, flush)) {
   impl_->file.write(bytesFromObject(comment(headerText(header))));
   impl_->file.flush();
 }
@@ -45,20 +56,11 @@ LogWriter::LogWriter(const std::string& file, const std::string& header) : impl_
 LogWriter::~LogWriter() = default;
 
 void LogWriter::write(const mrpt::obs::CObservation& observation) {
-  impl_->flushIfDue(mrpt::Clock::toDouble(observation.timestamp));
-  impl_->file.write(bytesFromObject(observation));
-  ++impl_->count;
+  if (impl_->flush == Flush::kEachSecond) impl_->flushIfDue(mrpt::Clock::toDouble(observation.timestamp));
+  impl_->write(bytesFromObject(observation));
 }
 
-void LogWriter::writeStored(std::string_view bytes) {
-  impl_->unflushed += bytes.size();
-  if (impl_->unflushed > kFlushBytes) {
-    impl_->file.flush();
-    impl_->unflushed = 0;
-  }
-  impl_->file.write(bytes);
-  ++impl_->count;
-}
+void LogWriter::writeStored(std::string_view bytes) { impl_->write(bytes); }
 
 void LogWriter::close() {
   impl_->file.write(bytesFromObject(comment(endText(impl_->count))));

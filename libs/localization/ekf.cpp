@@ -10,7 +10,7 @@
 
 namespace sidestep {
 namespace {
-constexpr int kOffset = 3, kBias = 4, kScale = 5;
+constexpr int kOffset = 3, kBias = 4, kScale = 5, kTurnScale = 6, kPull = 7;
 
 /// P(chi^2_k <= q), k = 1, 2, 3 in closed form.
 double chiSquareCdf(double q, int dof) {
@@ -18,8 +18,8 @@ double chiSquareCdf(double q, int dof) {
   const double one = std::erf(std::sqrt(q / 2));
   return dof == 1 ? one : one - std::sqrt(2 * q / M_PI) * std::exp(-q / 2);
 }
-/// What measurements tell: positions (fixes, ranges), headings, the gyro's bias. While one sensor of a group is believed,
-/// another that is refused is the one at fault.
+/// What measurements tell: positions (fixes, ranges), headings, the gyro's bias. While one sensor of a group is
+/// believed, another that is refused is the one at fault.
 size_t group(const Measurement& m) {
   if (m.kind == Measurement::Kind::kStill) return 2;
   return m.kind == Measurement::Kind::kHeading ? 1 : 0;
@@ -65,6 +65,9 @@ void EkfParams::visit(ParamVisitor& v) {
   v.angle("yaw_rate_bias_walk_deg", yaw_rate_bias_walk, {0, 90}, "how much that bias drifts in a second (deg/s)");
   v.number("wheel_scale_sd", wheel_scale_sd, {0, 1}, "", "sd of the wheels' unknown scale error; 0 = none");
   v.number("wheel_scale_walk", wheel_scale_walk, {0, 1}, "1/sqrt(s)", "how much that scale drifts in a second");
+  v.number("turn_scale_sd", turn_scale_sd, {0, 1}, "",
+           "sd of the unknown relative error of turns that the wheels tell (the track); 0 = none");
+  v.angle("turn_pull_sd_deg", turn_pull_sd, {0, 360}, "sd of the unknown turn by unequal wheels (deg/m); 0 = none");
 }
 
 template <int N>
@@ -78,10 +81,12 @@ void Ekf<N>::start(const PoseBelief& belief) {
   P_.setZero();
   x_.template head<3>() << belief.mean.x, belief.mean.y, belief.mean.phi;
   P_.template topLeftCorner<3, 3>() = belief.covariance;
-  if constexpr (N > 3) {
-    P_(kOffset, kOffset) = params_.heading_offset_sd * params_.heading_offset_sd;
+  if constexpr (N > 3) P_(kOffset, kOffset) = params_.heading_offset_sd * params_.heading_offset_sd;
+  if constexpr (N > 4) {
     P_(kBias, kBias) = params_.yaw_rate_bias_sd * params_.yaw_rate_bias_sd;
     P_(kScale, kScale) = params_.wheel_scale_sd * params_.wheel_scale_sd;
+    P_(kTurnScale, kTurnScale) = params_.turn_scale_sd * params_.turn_scale_sd;
+    P_(kPull, kPull) = params_.turn_pull_sd * params_.turn_pull_sd;
   }
   refused_since_.fill(0);
 }
@@ -89,10 +94,11 @@ void Ekf<N>::start(const PoseBelief& belief) {
 template <int N>
 void Ekf<N>::predict(const MotionStep& motion) {
   if (motion.still || !(motion.dt_s >= 0)) return;
+  const bool wheels_turn = !motion.turn_from_gyro;
   double ds = motion.distance_m, turn = motion.turn_rad;
-  if constexpr (N > 3) {
+  if constexpr (N > 4) {
     ds *= 1 + x_(kScale);
-    if (motion.turn_from_gyro) turn -= x_(kBias) * motion.dt_s;
+    turn += wheels_turn ? x_(kTurnScale) * motion.turn_rad + x_(kPull) * motion.distance_m : -x_(kBias) * motion.dt_s;
   }
   const double beta = x_(2) + 0.5 * turn, c = std::cos(beta), s = std::sin(beta);
   State x = x_;
@@ -100,29 +106,33 @@ void Ekf<N>::predict(const MotionStep& motion) {
   x(1) += ds * s;
   x(2) = mrpt::math::wrapToPi(x(2) + turn);
 
-  // F P F' with (3.9): F differs from the identity in the first two rows, by the yaw and the calibration, and in the
-  // third by the bias. Each row, then each column, takes its part of the ones that are not changed yet.
-  Covariance P = P_;
-  const auto transform = [&](auto line) {
-    line(0) += -ds * s * line(2);
-    line(1) += ds * c * line(2);
-    if constexpr (N > 3) {
-      line(0) += motion.distance_m * c * line(kScale);
-      line(1) += motion.distance_m * s * line(kScale);
-      if (!motion.turn_from_gyro) return;
-      line(0) += 0.5 * ds * s * motion.dt_s * line(kBias);
-      line(1) += -0.5 * ds * c * motion.dt_s * line(kBias);
-      line(2) += -motion.dt_s * line(kBias);
+  // (3.9): the rows of the pose, by all of the state. What is calibrated stays as it is.
+  Eigen::Matrix<double, 3, N> F = Eigen::Matrix<double, 3, N>::Identity();
+  F(0, 2) = -ds * s;
+  F(1, 2) = ds * c;
+  const Eigen::Vector3d by_turn(-0.5 * ds * s, 0.5 * ds * c, 1);
+  if constexpr (N > 4) {
+    F.col(kScale) << motion.distance_m * c, motion.distance_m * s, 0;
+    if (wheels_turn) {
+      F.col(kTurnScale) = motion.turn_rad * by_turn;
+      F.col(kPull) = motion.distance_m * by_turn;
+    } else {
+      F.col(kBias) = -motion.dt_s * by_turn;
     }
-  };
-  transform([&P](int i) { return P.row(i); });
-  transform([&P](int i) { return P.col(i); });
-  // (3.8), by distance and turn instead of v and w.
-  const Eigen::Vector3d by_distance(c, s, 0), by_turn(-0.5 * ds * s, 0.5 * ds * c, 1);
-  P.template topLeftCorner<3, 3>() += motion.distance_var * by_distance * by_distance.transpose() +
-                                      motion.turn_var * by_turn * by_turn.transpose();
+  }
+  const Eigen::Matrix<double, 3, N> FP = F * P_;
+  Covariance P = P_;
+  P.template topLeftCorner<3, 3>() = FP * F.transpose();
   if constexpr (N > 3) {
-    P(kOffset, kOffset) += params_.heading_offset_walk * params_.heading_offset_walk * motion.dt_s;
+    P.template topRightCorner<3, N - 3>() = FP.template rightCols<N - 3>();
+    P.template bottomLeftCorner<N - 3, 3>() = FP.template rightCols<N - 3>().transpose();
+  }
+  // (3.8), by distance and turn instead of v and w.
+  const Eigen::Vector3d by_distance(c, s, 0);
+  P.template topLeftCorner<3, 3>() +=
+      motion.distance_var * by_distance * by_distance.transpose() + motion.turn_var * by_turn * by_turn.transpose();
+  if constexpr (N > 3) P(kOffset, kOffset) += params_.heading_offset_walk * params_.heading_offset_walk * motion.dt_s;
+  if constexpr (N > 4) {
     P(kBias, kBias) += params_.yaw_rate_bias_walk * params_.yaw_rate_bias_walk * motion.dt_s;
     P(kScale, kScale) += params_.wheel_scale_walk * params_.wheel_scale_walk * motion.dt_s;
   }
@@ -161,7 +171,7 @@ Correction Ekf<N>::correctPose(const Measurement& m) {
 
 template <int N>
 Correction Ekf<N>::correctBias(const Measurement& m) {
-  if constexpr (N > 3) {
+  if constexpr (N > 4) {
     Eigen::Matrix<double, 1, N> H = Eigen::Matrix<double, 1, N>::Zero();
     H(kBias) = 1;
     return update<1>(m, Eigen::Matrix<double, 1, 1>(m.z(0) - x_(kBias)), H);
@@ -205,8 +215,9 @@ Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1
   }
   const Eigen::Matrix<double, N, M> K = before * H.transpose() * S_inverse;  // (3.3)
   const State x = x_ + K * nu;                                               // (2.13)
-  const Covariance A = Covariance::Identity() - K * H;
-  const Covariance P = A * before * A.transpose() + K * R * K.transpose();
+  // Joseph's (I - K H) P (I - K H)' + K R K', in the order that costs N^2 M.
+  const Covariance left = before - K * (H * before);
+  const Covariance P = left - (left * H.transpose()) * K.transpose() + K * R * K.transpose();
   if (!x.allFinite() || !P.allFinite()) return {Correction::Reason::kNotFinite, 0, M};
   x_ = x;
   x_(2) = mrpt::math::wrapToPi(x_(2));
@@ -239,10 +250,12 @@ void Ekf<N>::restore(const std::vector<double>& state) {
 }
 
 template class Ekf<3>;
-template class Ekf<6>;
+template class Ekf<4>;
+template class Ekf<8>;
 
 std::unique_ptr<PoseFilter> makeEkf(const EkfParams& params) {
-  if (params.calibrates()) return std::make_unique<Ekf<6>>(params);
+  if (params.calibratesMotion()) return std::make_unique<Ekf<8>>(params);
+  if (params.heading_offset_sd > 0) return std::make_unique<Ekf<4>>(params);
   return std::make_unique<Ekf<3>>(params);
 }
 

@@ -15,22 +15,28 @@ struct EkfParams {
   double gate_probability = 0.9973;
   double gate_patience_s = 30;
   double heading_offset_sd = 0.785398163397448279;  // rad
-  double heading_offset_walk = 0;  // rad / sqrt(s)
-  double yaw_rate_bias_sd = 0;     // rad/s
-  double yaw_rate_bias_walk = 0;   // rad/s / sqrt(s)
+  double heading_offset_walk = 0;                   // rad / sqrt(s)
+  double yaw_rate_bias_sd = 0;                      // rad/s
+  double yaw_rate_bias_walk = 0;                    // rad/s / sqrt(s)
   double wheel_scale_sd = 0;
   double wheel_scale_walk = 0;  // 1 / sqrt(s)
+  double turn_scale_sd = 0;
+  double turn_pull_sd = 0;  // rad/m
 
   void visit(ParamVisitor& v);
-  bool calibrates() const { return heading_offset_sd > 0 || yaw_rate_bias_sd > 0 || wheel_scale_sd > 0; }
+  bool calibratesMotion() const {
+    return yaw_rate_bias_sd > 0 || wheel_scale_sd > 0 || turn_scale_sd > 0 || turn_pull_sd > 0;
+  }
 };
 
 /// The extended Kalman filter of section 3.1.
 ///
-/// State (x, y, yaw), and with N = 6 also what a robot's sensors get wrong and motion makes visible: the constant offset
-/// of the IMU's heading [rad], the bias of the gyro [rad/s], and the wheels' scale error (true = (1 + s) * odometry).
-/// Motion model (3.7), Jacobians (3.8)-(3.9), update (2.12)-(2.13); covariance in Joseph's form instead of (2.14), which
-/// keeps it symmetric and positive whatever the rounding. Cost: O(N^2) a prediction, O(N^2) a measurement.
+/// State (x, y, yaw), and what a robot's sensors get wrong and motion makes visible: with N = 4 the constant offset of
+/// the IMU's heading [rad]; with N = 8 also the bias of the gyro [rad/s], the wheels' scale error (true way = (1 + s) *
+/// odometry's), and where the wheels tell of turns, the error t of the track and the pull p of unequal wheels [rad/m]:
+/// true turn = (1 + t) * odometry's turn + p * odometry's way.
+/// Motion model (3.7), Jacobians (3.8)-(3.9), update (2.12)-(2.13); covariance in Joseph's form instead of (2.14),
+/// which keeps it symmetric and positive whatever the rounding. Cost: O(N^2) a prediction, O(N^2) a measurement.
 template <int N>
 class Ekf final : public PoseFilter {
  public:

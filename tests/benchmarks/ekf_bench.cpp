@@ -13,7 +13,8 @@ namespace {
 template <int N>
 void BM_EkfPredictCorrect(benchmark::State& state) {
   EkfParams params;
-  params.heading_offset_sd = params.yaw_rate_bias_sd = params.wheel_scale_sd = N > 3 ? 0.01 : 0;
+  params.heading_offset_sd = N > 3 ? 0.01 : 0;
+  params.yaw_rate_bias_sd = params.wheel_scale_sd = N > 4 ? 0.01 : 0;
   Ekf<N> ekf(params);
   PoseBelief belief;
   belief.covariance.diagonal() << 1, 1, 0.1;
@@ -34,7 +35,8 @@ void BM_EkfPredictCorrect(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_EkfPredictCorrect<3>);
-BENCHMARK(BM_EkfPredictCorrect<6>);
+BENCHMARK(BM_EkfPredictCorrect<4>);
+BENCHMARK(BM_EkfPredictCorrect<8>);
 
 /// 100 s of odometry at 20 Hz with fixes at 5 Hz; items are odometry readings.
 void BM_LocalizerOdometryGps(benchmark::State& state) {

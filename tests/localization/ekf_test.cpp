@@ -115,7 +115,7 @@ void expectCovarianceOfCentralDifferences() {
     Ekf<N> ekf({});
     Whole<N> s(ekf);
     for (int k = 0; k < N; ++k) s.x(k) = k < 3 ? unit(random) : 0.2 * unit(random);
-    if (N > 5) s.x(N - 1) = 0;  // the distance's noise is that of the true distance
+    if (N > 5) s.x.tail(3).setZero();  // the noise is that of the true distance and turn
     const Eigen::Matrix<double, N, N> A = Eigen::Matrix<double, N, N>::NullaryExpr([&]() { return unit(random); });
     s.P = A * A.transpose();
     s.into(ekf);
@@ -130,8 +130,7 @@ void expectCovarianceOfCentralDifferences() {
       other.turn_rad = u(1);
       return predicted<N>(s.x, other);
     };
-    const Eigen::MatrixXd W =
-        support::centralDifferences(byInput, Eigen::Vector2d(step.distance_m, step.turn_rad));
+    const Eigen::MatrixXd W = support::centralDifferences(byInput, Eigen::Vector2d(step.distance_m, step.turn_rad));
     const Eigen::Vector2d q(step.distance_var, step.turn_var);
     const Eigen::MatrixXd expected = F * s.P * F.transpose() + W * q.asDiagonal() * W.transpose();
     EXPECT_LT((Whole<N>(ekf).P - expected).cwiseAbs().maxCoeff(), 1e-8);
@@ -139,7 +138,7 @@ void expectCovarianceOfCentralDifferences() {
 }
 
 TEST(EkfPredict, HasTheJacobiansOfCentralDifferences) { expectCovarianceOfCentralDifferences<3>(); }
-TEST(EkfPredict, HasTheJacobiansOfCentralDifferencesWithCalibration) { expectCovarianceOfCentralDifferences<6>(); }
+TEST(EkfPredict, HasTheJacobiansOfCentralDifferencesWithCalibration) { expectCovarianceOfCentralDifferences<8>(); }
 
 TEST(EkfPredict, GivesTheSpreadOfSampledMotions) {
   // 1e5 motions drawn from the noise; small enough that the model is all but linear.
@@ -267,12 +266,13 @@ void expectSymmetricPositive() {
     worst = std::min(worst, eigen.eigenvalues().minCoeff() / eigen.eigenvalues().maxCoeff());
     ASSERT_GE(P.diagonal().minCoeff(), 0) << i;
   }
-  // Variances span 24 decades here, doubles 16: the smallest eigenvalue is known to some hundred roundings of the largest.
+  // Variances span 24 decades here, doubles 16: the smallest eigenvalue is known to some hundred roundings of the
+  // largest.
   EXPECT_GE(worst, -1e-12);
 }
 
 TEST(EkfCorrect, KeepsTheCovarianceSymmetricAndPositive) { expectSymmetricPositive<3>(); }
-TEST(EkfCorrect, KeepsTheCovarianceSymmetricAndPositiveWithCalibration) { expectSymmetricPositive<6>(); }
+TEST(EkfCorrect, KeepsTheCovarianceSymmetricAndPositiveWithCalibration) { expectSymmetricPositive<8>(); }
 
 TEST(EkfCorrect, RefusesMeasurementsThatAreNotFinite) {
   for (int size : {3, 6}) {
@@ -421,7 +421,8 @@ TEST(EkfGate, StaysFiniteWhenAResetWouldOverflow) {
 struct Drive {
   std::mt19937_64 random;
   std::normal_distribution<double> normal{0, 1};
-  double bias = 0, scale = 0, offset = 0;
+  double bias = 0, scale = 0, offset = 0, turn_scale = 0, pull = 0;
+  bool gyro = true;
   double distance_sd = 0.01, turn_sd = 0.002, fix_sd = 0.5, heading_sd = 0.03;
   mrpt::math::TPose2D truth{0, 0, 0};
 
@@ -433,8 +434,10 @@ struct Drive {
     const double w = 0.4 * std::sin(0.02 * i), v = 1;
     const double distance = 0.1 * v + noise(distance_sd), turn = 0.1 * w + noise(turn_sd);
     truth = moved(truth, stepOf(0.1, distance, turn));
-    auto told = stepOf(0.1, 0.1 * v / (1 + scale), 0.1 * w + bias * 0.1, distance_sd, turn_sd);
-    told.turn_from_gyro = true;
+    const double told_distance = 0.1 * v / (1 + scale);
+    const double told_turn = gyro ? 0.1 * w + bias * 0.1 : (0.1 * w - pull * told_distance) / (1 + turn_scale);
+    auto told = stepOf(0.1, told_distance, told_turn, distance_sd, turn_sd);
+    told.turn_from_gyro = gyro;
     return told;
   }
 };
@@ -448,7 +451,7 @@ TEST(EkfCalibration, FindsHeadingOffsetGyroBiasAndWheelScale) {
   drive.bias = 0.02;
   drive.scale = 0.06;
   drive.offset = 0.3;
-  Ekf<6> ekf(params);
+  Ekf<8> ekf(params);
   ekf.start(beliefOf({0, 0, 0}, 0.5, 0.1));
   for (int i = 0; i < 3000; ++i) {
     ekf.predict(drive.advance(i));
@@ -458,12 +461,35 @@ TEST(EkfCalibration, FindsHeadingOffsetGyroBiasAndWheelScale) {
       ekf.correct(heading(t, drive.truth.phi + drive.offset + drive.noise(0.03), 0.03));
     }
   }
-  const Whole<6> s(ekf);
+  const Whole<8> s(ekf);
   const Eigen::Vector3d truth(0.3, 0.02, 0.06), before(0.5, 0.05, 0.1);
   for (int k = 0; k < 3; ++k) {
     const double sd = std::sqrt(s.P(3 + k, 3 + k));
     EXPECT_NEAR(s.x(3 + k), truth(k), 3 * sd) << k;
     EXPECT_LT(sd, 0.1 * before(k)) << k;  // and they are known: ten times better than at the start
+  }
+}
+
+TEST(EkfCalibration, FindsTheTrackAndTheUnequalWheelsOfARobotWithoutGyro) {
+  EkfParams params;
+  params.turn_scale_sd = 0.3;
+  params.turn_pull_sd = 0.1;
+  Drive drive(9);
+  drive.gyro = false;
+  drive.turn_scale = 0.15;
+  drive.pull = -0.04;
+  Ekf<8> ekf(params);
+  ekf.start(beliefOf({0, 0, 0}, 0.5, 0.1));
+  for (int i = 0; i < 6000; ++i) {
+    ekf.predict(drive.advance(i));
+    if (i % 10 == 0)
+      ekf.correct(fix(1 + 0.1 * i, drive.truth.x + drive.noise(0.5), drive.truth.y + drive.noise(0.5), 0.5));
+  }
+  const Whole<8> s(ekf);
+  for (const auto& [k, truth, before] : {std::tuple(6, 0.15, 0.3), std::tuple(7, -0.04, 0.1)}) {
+    const double sd = std::sqrt(s.P(k, k));
+    EXPECT_NEAR(s.x(k), truth, 3 * sd) << k;
+    EXPECT_LT(sd, 0.1 * before) << k;
   }
 }
 
@@ -473,8 +499,8 @@ double meanNees() {
   EkfParams params;
   params.gate = false;
   params.heading_offset_sd = 0;
-  if (N > 3) {
-    params.heading_offset_sd = 0.1;
+  if (N > 3) params.heading_offset_sd = 0.1;
+  if (N > 4) {
     params.yaw_rate_bias_sd = 0.01;
     params.wheel_scale_sd = 0.02;
   }
@@ -502,11 +528,14 @@ double meanNees() {
 
 // 200 runs of 3 degrees of freedom: mean 3, standard error sqrt(2 * 3 / 200) = 0.173; 3.5 of them.
 TEST(EkfConsistency, HasTheErrorsThatItsCovarianceSays) { EXPECT_NEAR(meanNees<3>(), 3, 3.5 * 0.173); }
-TEST(EkfConsistency, HasTheErrorsThatItsCovarianceSaysWithCalibration) { EXPECT_NEAR(meanNees<6>(), 3, 3.5 * 0.173); }
+TEST(EkfConsistency, HasTheErrorsThatItsCovarianceSaysWithAHeadingOffset) {
+  EXPECT_NEAR(meanNees<4>(), 3, 3.5 * 0.173);
+}
+TEST(EkfConsistency, HasTheErrorsThatItsCovarianceSaysWithCalibration) { EXPECT_NEAR(meanNees<8>(), 3, 3.5 * 0.173); }
 
 TEST(EkfCalibration, IsThePlainFilterWhenNothingIsUnknown) {
   Ekf<3> plain({});
-  Ekf<6> full({});
+  Ekf<8> full({});
   Drive drive(9);
   plain.start(beliefOf({0, 0, 0}, 0.5, 0.1));
   full.start(beliefOf({0, 0, 0}, 0.5, 0.1));
@@ -529,7 +558,7 @@ TEST(EkfCalibration, IsThePlainFilterWhenNothingIsUnknown) {
 TEST(EkfCalibration, LearnsTheBiasOfAGyroAtRest) {
   EkfParams params;
   params.yaw_rate_bias_sd = 0.03;
-  Ekf<6> ekf(params);
+  Ekf<8> ekf(params);
   ekf.start(beliefOf({0, 0, 0}, 0.1, 0.1));
   Measurement still;
   still.kind = Kind::kStill;
@@ -537,18 +566,19 @@ TEST(EkfCalibration, LearnsTheBiasOfAGyroAtRest) {
   still.R(0, 0) = 0.01 * 0.01;
   EXPECT_TRUE(ekf.correct(still).accepted());
   // K = P / (P + R) = 9e-4 / (9e-4 + 1e-4) = 0.9
-  EXPECT_NEAR(Whole<6>(ekf).x(4), 0.018, 1e-12);
+  EXPECT_NEAR(Whole<8>(ekf).x(4), 0.018, 1e-12);
 }
 
 TEST(MakeEkf, TakesTheSmallestFilterThatServes) {
   EkfParams known;
   known.heading_offset_sd = 0;
   EXPECT_NE(dynamic_cast<Ekf<3>*>(makeEkf(known).get()), nullptr);
-  for (double EkfParams::*sd :
-       {&EkfParams::heading_offset_sd, &EkfParams::yaw_rate_bias_sd, &EkfParams::wheel_scale_sd}) {
+  EXPECT_NE(dynamic_cast<Ekf<4>*>(makeEkf({}).get()), nullptr);
+  for (double EkfParams::*sd : {&EkfParams::turn_scale_sd, &EkfParams::turn_pull_sd, &EkfParams::yaw_rate_bias_sd,
+                                &EkfParams::wheel_scale_sd}) {
     EkfParams params = known;
     params.*sd = 0.1;
-    EXPECT_NE(dynamic_cast<Ekf<6>*>(makeEkf(params).get()), nullptr);
+    EXPECT_NE(dynamic_cast<Ekf<8>*>(makeEkf(params).get()), nullptr);
   }
 }
 
@@ -581,7 +611,7 @@ void expectSameContinuation() {
 
 TEST(EkfState, ContinuesBitForBitAfterSaveAndRestore) {
   expectSameContinuation<3>();
-  expectSameContinuation<6>();
+  expectSameContinuation<8>();
 }
 
 }  // namespace
