@@ -154,7 +154,7 @@ std::string resolvedPath(const std::string& path, const std::string& study_file)
     const char* value = std::getenv(name.c_str());
     if (value == nullptr || *value == '\0')
       throw DatasetError::missing(study_file + ": " + path + ": the environment variable " + name +
-                                  " is not set; set it to the folder of the data, or leave these scenarios out");
+                                  " is not set; set it to the folder of the data, or leave these scenarios out with --scenarios");
     out.replace(from, to + 1 - from, value);
   }
   const std::filesystem::path file(out);
