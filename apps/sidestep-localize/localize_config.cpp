@@ -50,7 +50,7 @@ void setInitialPose(const std::string& text, StartParams& start) {
 }  // namespace
 
 void LocalizeConfig::visit(ParamVisitor& v) {
-  v.choice("filter", filter, {"ekf", "odometry"}, "the estimator");
+  v.choice("filter", filter, {"ekf", "pf", "odometry"}, "the estimator");
   v.integer("seed", seed, {0, 2e9}, "of the random numbers, for filters that draw any");
   v.texts("sensors", sensors, "of odometry, imu, gps, beacons; empty: those that the log has");
   v.choice("align", align, {"auto", "none", "first", "se2"},
@@ -62,6 +62,7 @@ void LocalizeConfig::visit(ParamVisitor& v) {
     w.angle("yaw_deg", truth_yaw, {-360, 360}, "its turn");
   });
   v.section("ekf", "extended Kalman filter (section 3.1)", [this](ParamVisitor& w) { ekf.visit(w); });
+  v.section("pf", "particle filter (section 3.2)", [this](ParamVisitor& w) { pf.visit(w); });
   robot.visit(v);
 }
 

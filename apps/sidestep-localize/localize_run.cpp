@@ -39,6 +39,11 @@ mrpt::obs::CObservationRobotPose asObservation(const Estimate& e) {
   return o;
 }
 
+std::unique_ptr<PoseFilter> makeFilter(const LocalizeConfig& config) {
+  if (config.filter == "pf") return makeParticleFilter(config.pf, static_cast<uint64_t>(config.seed));
+  return makeEkf(config.ekf);
+}
+
 /// The ellipses of the picture, some 20 to 40 along whatever length.
 class Ellipses {
  public:
@@ -65,7 +70,7 @@ class Run {
         config_(config),
         folder_(options.output, options.overwrite),
         reader_(options.log, readerOptions(options, config)),
-        localizer_(config.robot, makeEkf(config.ekf), expectation(config)),
+        localizer_(config.robot, makeFilter(config), expectation(config)),
         truth_(options.ground_truth, config),
         writer_(folder_.file("estimate.rawlog"), commandLine()),
         tum_(folder_.file("trajectory.tum")) {}
@@ -81,7 +86,8 @@ class Run {
     return r;
   }
   static Expectation expectation(const LocalizeConfig& c) {
-    return {c.uses("gps"), c.uses("imu") && c.robot.imu.heading != "off", c.ekf.heading_offset_sd};
+    const double offset_sd = c.filter == "pf" ? c.pf.heading_offset_sd : c.ekf.heading_offset_sd;
+    return {c.uses("gps"), c.uses("imu") && c.robot.imu.heading != "off", offset_sd};
   }
   void handle(const LogEntry& e);
   void feed(const LogEntry& e);
@@ -223,11 +229,12 @@ void Run::draw(const LocalizationMetrics& m) const {
 void Run::checkSensors() {
   std::string labels;
   for (const auto& [label, kind] : kinds_) labels += (labels.empty() ? "" : ", ") + label;
-  const std::string hint = " (used: " + (labels.empty() ? std::string("nothing") : labels) +
-                           "); see sidestep-rawlog info, and --label";
+  const std::string hint =
+      " (used: " + (labels.empty() ? std::string("nothing") : labels) + "); see sidestep-rawlog info, and --label";
   if (estimates_ == 0) throw DatasetError::missing(options_.log + ": no odometry to localize with" + hint);
   for (const auto& sensor : config_.sensors)
-    if (!used(sensor)) throw DatasetError::missing(options_.log + ": nothing of sensor '" + sensor + "' was usable" + hint);
+    if (!used(sensor))
+      throw DatasetError::missing(options_.log + ": nothing of sensor '" + sensor + "' was usable" + hint);
 }
 
 ExitCode Run::go() {
@@ -240,7 +247,8 @@ ExitCode Run::go() {
       if (!entry) break;
       handle(*entry);
       if (++count % 256 == 0)
-        bar.update(static_cast<double>(reader_.bytesConsumed()) / std::max(1.0, static_cast<double>(reader_.fileSize())));
+        bar.update(static_cast<double>(reader_.bytesConsumed()) /
+                   std::max(1.0, static_cast<double>(reader_.fileSize())));
     }
   }
   localizer_.finish();
