@@ -30,7 +30,7 @@ void checkSensors(const std::vector<std::string>& sensors, const std::string& wh
 }  // namespace
 
 void LocalizeConfig::visit(ParamVisitor& v) {
-  v.choice("filter", filter, {"ekf", "odometry"}, "the estimator");
+  v.choice("filter", filter, {"ekf", "pf", "odometry"}, "the estimator");
   v.integer("seed", seed, {0, 2e9}, "of the random numbers, for filters that draw any");
   v.texts("sensors", sensors, "of odometry, imu, gps, beacons; empty: those that the log has");
   v.choice("align", align, {"auto", "none", "first", "se2"},
@@ -42,6 +42,7 @@ void LocalizeConfig::visit(ParamVisitor& v) {
     w.angle("yaw_deg", truth_yaw, {-360, 360}, "its turn");
   });
   v.section("ekf", "extended Kalman filter (section 3.1)", [this](ParamVisitor& w) { ekf.visit(w); });
+  v.section("pf", "particle filter (section 3.2)", [this](ParamVisitor& w) { pf.visit(w); });
   robot.visit(v);
 }
 
@@ -51,7 +52,8 @@ bool LocalizeConfig::uses(const std::string& sensor) const {
 }
 
 Expectation LocalizeConfig::expectation() const {
-  return {uses("gps"), uses("imu") && robot.imu.heading != "off", ekf.heading_offset_sd};
+  const double offset_sd = filter == "pf" ? pf.heading_offset_sd : ekf.heading_offset_sd;
+  return {uses("gps"), uses("imu") && robot.imu.heading != "off", offset_sd};
 }
 
 void LocalizeConfig::check(const std::string& where) const {
@@ -61,7 +63,10 @@ void LocalizeConfig::check(const std::string& where) const {
     throw ConfigError("--sensors beacons: the configuration names no beacons; list them under beacons.beacons");
 }
 
-std::unique_ptr<PoseFilter> makeFilter(const LocalizeConfig& config, uint64_t /*seed*/) { return makeEkf(config.ekf); }
+std::unique_ptr<PoseFilter> makeFilter(const LocalizeConfig& config, uint64_t seed) {
+  if (config.filter == "pf") return makeParticleFilter(config.pf, seed);
+  return makeEkf(config.ekf);
+}
 
 int LocalizationFeed::streamOf(const LogEntry& e) {
   const auto it = streams_.find(e.label);

@@ -10,6 +10,7 @@
 #include "datasets/log_entry.h"
 #include "localization/ekf.h"
 #include "localization/localizer.h"
+#include "localization/particle_filter.h"
 
 namespace sidestep {
 
@@ -20,6 +21,7 @@ struct LocalizeConfig {
   std::vector<std::string> sensors;  // empty: whatever the log has of odometry, imu, gps, and beacons if known
   LocalizerParams robot;
   EkfParams ekf;
+  PfParams pf;
   std::string align = "auto";
   double truth_x_m = 0, truth_y_m = 0, truth_yaw = 0;  // T_map_truth
   bool truth_frame_given = false;
