@@ -1,31 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/params.h"
-#include "localization/ekf.h"
-#include "localization/localizer.h"
+#include "evaluation/localization_config.h"
 
 namespace sidestep {
-
-/// All that a YAML for sidestep-localize may hold: the robot, its sensors, its filter.
-struct LocalizeConfig {
-  std::string filter = "ekf";
-  int seed = 1;
-  std::vector<std::string> sensors;  // empty: whatever the log has of odometry, imu, gps, and beacons if known
-  LocalizerParams robot;
-  EkfParams ekf;
-  std::string align = "auto";
-  double truth_x_m = 0, truth_y_m = 0, truth_yaw = 0;  // T_map_truth
-  bool truth_frame_given = false;
-
-  void visit(ParamVisitor& v);
-  bool uses(const std::string& sensor) const;
-};
 
 /// What is asked for on the command line.
 struct LocalizeOptions {
@@ -40,8 +22,5 @@ struct LocalizeOptions {
 /// The file's parameters with the command line's on top.
 /// @throws ConfigError for anything that is not known or does not fit.
 LocalizeConfig effectiveConfig(const LocalizeOptions& options);
-
-/// "kind=label" words as a map.
-std::map<std::string, std::string> labelMap(const std::vector<std::string>& words);
 
 }  // namespace sidestep

@@ -3,10 +3,6 @@
 #include "sidestep-localize/localize_run.h"
 
 #include <mrpt/core/Clock.h>
-#include <mrpt/obs/CObservationBeaconRanges.h>
-#include <mrpt/obs/CObservationGPS.h>
-#include <mrpt/obs/CObservationIMU.h>
-#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <chrono>
@@ -65,7 +61,8 @@ class Run {
         config_(config),
         folder_(options.output, options.overwrite),
         reader_(options.log, readerOptions(options, config)),
-        localizer_(config.robot, makeEkf(config.ekf), expectation(config)),
+        localizer_(config.robot, makeFilter(config, static_cast<uint64_t>(config.seed)), config.expectation()),
+        feed_(config, localizer_),
         truth_(options.ground_truth, config),
         log_(folder_.file("estimate.rawlog"), commandLine()),
         tum_(folder_.file("trajectory.tum")) {}
@@ -80,13 +77,8 @@ class Run {
     r.to_s = o.to_s;
     return r;
   }
-  static Expectation expectation(const LocalizeConfig& c) {
-    return {c.uses("gps"), c.uses("imu") && c.robot.imu.heading != "off", c.ekf.heading_offset_sd};
-  }
   void handle(const LogEntry& e);
-  void feed(const LogEntry& e);
   void take();
-  int streamOf(const LogEntry& e);
   Alignment alignment() const;
   LocalizationMetrics metrics() const;
   void draw(const LocalizationMetrics& m) const;
@@ -99,13 +91,12 @@ class Run {
   OutputFolder folder_;
   LogReader reader_;
   Localizer localizer_;
+  LocalizationFeed feed_;
   TruthComparison truth_;
   OrderedLog log_;
   TumWriter tum_;
   TrajectoryFigure figure_;
   Ellipses ellipses_;
-  std::map<std::string, int> streams_;
-  std::map<std::string, SensorKind> kinds_;
   std::vector<std::string> warnings_;
   double begin_s_ = steadySeconds(), first_s_ = 0, last_s_ = 0;
   uint64_t estimates_ = 0;
@@ -114,31 +105,6 @@ class Run {
 void Run::warn(const std::string& line) {
   warnings_.push_back(line);
   std::fprintf(stderr, "sidestep-localize: %s\n", line.c_str());
-}
-
-int Run::streamOf(const LogEntry& e) {
-  const auto it = streams_.find(e.label);
-  if (it != streams_.end()) return it->second;
-  kinds_[e.label] = e.kind;
-  return streams_[e.label] = localizer_.addStream(e.label);
-}
-
-void Run::feed(const LogEntry& e) {
-  using namespace mrpt::obs;
-  const bool wanted = config_.uses(word(e.kind));
-  if (!wanted) return;
-  if (e.kind == SensorKind::kOdometry) {
-    localizer_.odometry(streamOf(e), e.time_s, dynamic_cast<const CObservationOdometry&>(*e.observation));
-  } else if (e.kind == SensorKind::kImu) {
-    localizer_.imu(streamOf(e), e.time_s, dynamic_cast<const CObservationIMU&>(*e.observation));
-  } else if (e.kind == SensorKind::kBeacons) {
-    localizer_.beacons(streamOf(e), e.time_s, dynamic_cast<const CObservationBeaconRanges&>(*e.observation));
-  } else if (e.kind == SensorKind::kGps) {
-    if (const auto* gps = dynamic_cast<const CObservationGPS*>(e.observation.get()))
-      localizer_.gps(streamOf(e), e.time_s, *gps);
-    else if (const auto* pose = dynamic_cast<const CObservationRobotPose*>(e.observation.get()))
-      localizer_.position(streamOf(e), e.time_s, pose->pose.mean.x(), pose->pose.mean.y());
-  }
 }
 
 void Run::handle(const LogEntry& e) {
@@ -151,7 +117,7 @@ void Run::handle(const LogEntry& e) {
       truth_.push(e.time_s, {p->pose.mean.x(), p->pose.mean.y(), p->pose.mean.yaw()});
     return;
   }
-  feed(e);
+  feed_.feed(e);
   take();
 }
 
@@ -170,7 +136,7 @@ void Run::take() {
 
 bool Run::used(const std::string& sensor) const {
   for (const auto& s : localizer_.sensors())
-    if (word(kinds_.at(s.label)) == sensor && s.used > 0) return true;
+    if (word(feed_.kinds().at(s.label)) == sensor && s.used > 0) return true;
   return false;
 }
 
@@ -222,12 +188,13 @@ void Run::draw(const LocalizationMetrics& m) const {
 
 void Run::checkSensors() {
   std::string labels;
-  for (const auto& [label, kind] : kinds_) labels += (labels.empty() ? "" : ", ") + label;
-  const std::string hint = " (used: " + (labels.empty() ? std::string("nothing") : labels) +
-                           "); see sidestep-rawlog info, and --label";
+  for (const auto& [label, kind] : feed_.kinds()) labels += (labels.empty() ? "" : ", ") + label;
+  const std::string hint =
+      " (used: " + (labels.empty() ? std::string("nothing") : labels) + "); see sidestep-rawlog info, and --label";
   if (estimates_ == 0) throw DatasetError::missing(options_.log + ": no odometry to localize with" + hint);
   for (const auto& sensor : config_.sensors)
-    if (!used(sensor)) throw DatasetError::missing(options_.log + ": nothing of sensor '" + sensor + "' was usable" + hint);
+    if (!used(sensor))
+      throw DatasetError::missing(options_.log + ": nothing of sensor '" + sensor + "' was usable" + hint);
 }
 
 ExitCode Run::go() {
@@ -240,7 +207,8 @@ ExitCode Run::go() {
       if (!entry) break;
       handle(*entry);
       if (++count % 256 == 0)
-        bar.update(static_cast<double>(reader_.bytesConsumed()) / std::max(1.0, static_cast<double>(reader_.fileSize())));
+        bar.update(static_cast<double>(reader_.bytesConsumed()) /
+                   std::max(1.0, static_cast<double>(reader_.fileSize())));
     }
   }
   localizer_.finish();

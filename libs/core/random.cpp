@@ -44,22 +44,54 @@ Random::Random(uint64_t seed, uint64_t stream) {
   for (auto& s : s_) s = splitmix(x);
 }
 
-double Random::gaussian() {
+namespace {
+
+/// The layer that the bits name, and the number they stand for in it: 54 bits with sign, in [-1, 1) times its width.
+struct Candidate {
+  size_t layer;
+  double u, x;
+  explicit Candidate(uint64_t b)
+      : layer(b & (kLayers - 1)),
+        u(static_cast<double>(static_cast<int64_t>(b) >> 10) * 0x1p-53),
+        x(u * kZiggurat.x[layer]) {}
+  bool inside() const { return std::abs(x) < kZiggurat.x[layer + 1]; }
+};
+
+/// What follows where the first candidate is not surely under the curve: one time in a hundred.
+double atTheEdge(Random& random, Candidate c) {
   for (;;) {
-    const uint64_t b = bits();
-    const auto i = static_cast<size_t>(b & (kLayers - 1));
-    // 54 bits with sign: in [-1, 1)
-    const double u = static_cast<double>(static_cast<int64_t>(b) >> 10) * 0x1p-53;
-    const double x = u * kZiggurat.x[i];
-    if (std::abs(x) < kZiggurat.x[i + 1]) return x;
-    if (i == 0) {
+    if (c.inside()) return c.x;
+    if (c.layer == 0) {
       for (;;) {  // the tail, Marsaglia 1964
-        const double a = -std::log(1 - uniform()) / kTail, b2 = -std::log(1 - uniform());
-        if (b2 + b2 > a * a) return u < 0 ? -(kTail + a) : kTail + a;
+        const double a = -std::log(1 - random.uniform()) / kTail, b = -std::log(1 - random.uniform());
+        if (b + b > a * a) return c.u < 0 ? -(kTail + a) : kTail + a;
       }
     }
-    if (kZiggurat.f[i] + uniform() * (kZiggurat.f[i + 1] - kZiggurat.f[i]) < std::exp(-0.5 * x * x)) return x;
+    const double low = kZiggurat.f[c.layer], high = kZiggurat.f[c.layer + 1];
+    if (low + random.uniform() * (high - low) < std::exp(-0.5 * c.x * c.x)) return c.x;
+    c = Candidate(random.bits());
   }
+}
+
+}  // namespace
+
+double Random::gaussian() {
+  const Candidate c(bits());
+  return c.inside() ? c.x : atTheEdge(*this, c);
+}
+
+void Random::gaussians(double* out, size_t n) {
+  Random local = *this;  // of which no address is taken, so that it stays in registers
+  for (size_t i = 0; i < n; ++i) {
+    const Candidate c(local.bits());
+    out[i] = c.x;
+    if (c.inside()) [[likely]]
+      continue;
+    Random away = local;
+    out[i] = atTheEdge(away, c);
+    local = away;
+  }
+  *this = local;
 }
 
 }  // namespace sidestep

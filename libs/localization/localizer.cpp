@@ -115,7 +115,22 @@ void Localizer::imu(int stream, double time_s, const mrpt::obs::CObservationIMU&
     ++u.used;
     return;
   }
-  auto m = headingMeasurement(params_.imu, time_s, *reading.heading_rad, last_heading_s_ > 0 ? time_s - last_heading_s_ : 0);
+  addHeading(stream, time_s, *reading.heading_rad);
+}
+
+void Localizer::heading(int stream, double time_s, double heading_rad) {
+  ++use(stream).read;
+  addHeading(stream, time_s, heading_rad - params_.imu.heading_offset);
+}
+
+void Localizer::yawRate(int stream, double time_s, double rate) {
+  ++use(stream).read;
+  ++use(stream).used;
+  motion_.addYawRate(time_s, params_.imu.yaw_rate_scale * (rate - params_.imu.yaw_rate_bias));
+}
+
+void Localizer::addHeading(int stream, double time_s, double heading_rad) {
+  auto m = headingMeasurement(params_.imu, time_s, heading_rad, last_heading_s_ > 0 ? time_s - last_heading_s_ : 0);
   last_heading_s_ = time_s;
   m.stream = stream;
   add(m);

@@ -76,6 +76,9 @@ class Localizer {
   void imu(int stream, double time_s, const mrpt::obs::CObservationIMU& o);
   void gps(int stream, double time_s, const mrpt::obs::CObservationGPS& o);
   void position(int stream, double time_s, double x, double y);
+  /// What an IMU says, as plain numbers: yaw [rad], yaw rate [rad/s].
+  void heading(int stream, double time_s, double heading_rad);
+  void yawRate(int stream, double time_s, double rate);
   void beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o);
   /// No more observations come: what waits is processed.
   void finish();
@@ -96,6 +99,7 @@ class Localizer {
     bool counted = false;
     std::vector<double> state_after;
   };
+  void addHeading(int stream, double time_s, double heading_rad);
   void add(const Measurement& m);
   void place(const Measurement& m);
   void insertLate(const Measurement& m);

@@ -20,7 +20,9 @@ std::string demoCommand(const std::string& log, const std::filesystem::path& out
          kTruth + " -o '" + out.string() + "'";
 }
 
-nlohmann::json metricsIn(const std::filesystem::path& out) { return nlohmann::json::parse(readFile(out / "metrics.json")); }
+nlohmann::json metricsIn(const std::filesystem::path& out) {
+  return nlohmann::json::parse(readFile(out / "metrics.json"));
+}
 
 /// Messages are one line: what, where, what to do.
 void expectOneLine(const ProgramResult& run) {
@@ -57,8 +59,8 @@ TEST_F(LocalizeTheDemoLog, MetricsHaveTheKeysThatAreFixed) {
   const auto m = metricsIn(out());
   for (const char* key : {"duration_s", "wall_s", "peak_memory_mb"}) EXPECT_TRUE(m.at(key).is_number()) << key;
   for (const char* who : {"estimate", "odometry"})
-    for (const char* key : {"mean_error_m", "mean_square_error_m2", "rmse_m", "max_error_m", "final_error_m",
-                            "heading_mean_error_deg"})
+    for (const char* key :
+         {"mean_error_m", "mean_square_error_m2", "rmse_m", "max_error_m", "final_error_m", "heading_mean_error_deg"})
       EXPECT_TRUE(m.at(who).at(key).is_number()) << who << " " << key;
   EXPECT_TRUE(m.at("estimate").at("mean_nees").is_number());
   EXPECT_EQ(m.at("sensors").size(), 2u) << m.at("sensors");
@@ -81,7 +83,8 @@ TEST_F(LocalizeTheDemoLog, TheErrorsAreWithinTheDemosTargets) {
   EXPECT_LE(m["estimate"]["mean_error_m"].get<double>(), 0.20);
   EXPECT_LE(m["estimate"]["heading_mean_error_deg"].get<double>(), 2.5);
   EXPECT_LT(m["estimate"]["mean_error_m"].get<double>(), m["odometry"]["mean_error_m"].get<double>());
-  EXPECT_LT(m["estimate"]["heading_mean_error_deg"].get<double>(), m["odometry"]["heading_mean_error_deg"].get<double>());
+  EXPECT_LT(m["estimate"]["heading_mean_error_deg"].get<double>(),
+            m["odometry"]["heading_mean_error_deg"].get<double>());
 }
 
 TEST_F(LocalizeTheDemoLog, EffectiveYamlIsEnoughToRunAgainWithTheSameBytes) {
@@ -170,7 +173,8 @@ TEST(Localize, AnUnknownSensorIsAUsageErrorThatNamesTheNearest) {
 
 TEST(Localize, ASensorThatTheLogLacksIsAMissingInput) {
   const TemporaryFolder folder;
-  const auto run = runShell("sidestep-localize " + kLog + " --sensors odometry,imu -o '" + (folder / "out").string() + "'");
+  const auto run =
+      runShell("sidestep-localize " + kLog + " --sensors odometry,imu -o '" + (folder / "out").string() + "'");
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("'imu'"), std::string::npos) << run.err;
 }
@@ -182,6 +186,23 @@ TEST(Localize, OdometryAloneIsAFilterToo) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto m = metricsIn(folder / "out");
   EXPECT_NEAR(m["estimate"]["mean_error_m"].get<double>(), m["odometry"]["mean_error_m"].get<double>(), 0.01);
+}
+
+/// 500 particles against the EKF's 0.20 m and 2.5 deg; each seed is another run, and the same bytes again.
+TEST(Localize, TheParticleFilterDoesAsWellOnTheDemoLog) {
+  const TemporaryFolder folder;
+  const auto tumOf = [&](const std::string& name, int seed) {
+    const auto run =
+        runShell(demoCommand(kLog, folder / name) + " --filter pf --no-picture --seed " + std::to_string(seed));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto m = metricsIn(folder / name);
+    EXPECT_LE(m["estimate"]["mean_error_m"].get<double>(), 0.20) << seed;
+    EXPECT_LE(m["estimate"]["heading_mean_error_deg"].get<double>(), 3) << seed;
+    return readFile(folder / name / "trajectory.tum");
+  };
+  const auto first = tumOf("one", 1);
+  EXPECT_NE(first, tumOf("two", 2));
+  EXPECT_EQ(first, tumOf("again", 1));
 }
 
 TEST(Localize, FromAndToCutTheLog) {

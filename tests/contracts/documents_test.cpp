@@ -3,7 +3,7 @@
 // What the documents say of the programs is true.
 #include <gtest/gtest.h>
 
-#include "sidestep-localize/localize_config.h"
+#include "evaluation/localization_config.h"
 #include "support/run_program.h"
 
 namespace sidestep::testing {

@@ -74,3 +74,21 @@ TEST(Random, UniformIsInsideItsBoundsAndEven) {
   for (int c : count) EXPECT_NEAR(c, 10000, 5 * std::sqrt(9000));
   for (int i = 0; i < 1000; ++i) ASSERT_LT(random.below(7), 7u);
 }
+
+TEST(Random, ABatchOfGaussiansIsTheSameNumbersOneByOne) {
+  // A million, so that the edges of the layers and the tail (2.6e-4 of them) come many times.
+  constexpr size_t n = 1'000'000;
+  Random one(9), many(9);
+  std::vector<double> batch(n);
+  many.gaussians(batch.data(), n / 2 + 1);
+  many.gaussians(batch.data() + n / 2 + 1, n - n / 2 - 1);
+  for (size_t i = 0; i < n; ++i) ASSERT_EQ(batch[i], one.gaussian()) << i;
+  EXPECT_EQ(one.bits(), many.bits());
+}
+
+TEST(Random, GoesOnFromAStateThatIsPutBack) {
+  Random a(4), b(5);
+  for (int i = 0; i < 10; ++i) a.gaussian();
+  b.setState(a.state());
+  for (int i = 0; i < 10; ++i) ASSERT_EQ(a.bits(), b.bits());
+}

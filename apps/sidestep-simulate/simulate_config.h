@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+
+#include "core/params.h"
+#include "simulation/localization_scenario.h"
+
+namespace sidestep {
+
+/// What the command line says.
+struct SimulateOptions {
+  std::string scenario, output = "out";
+  std::optional<int> seed;
+  bool overwrite = false, quiet = false, no_picture = false, write_config = false;
+};
+
+/// All that a scenario file may hold.
+struct SimulateConfig {
+  std::string kind = "localization";
+  int seed = 1;
+  LocalizationScenarioParams localization;
+
+  void visit(ParamVisitor& v);
+};
+
+/// The scenario file's values, with those of the command line over them.
+/// @throws ConfigError, DatasetError as readYaml.
+SimulateConfig effectiveConfig(const SimulateOptions& options);
+
+}  // namespace sidestep

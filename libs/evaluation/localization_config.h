@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/params.h"
+#include "datasets/log_entry.h"
+#include "localization/ekf.h"
+#include "localization/localizer.h"
+#include "localization/particle_filter.h"
+
+namespace sidestep {
+
+/// All that a YAML for sidestep-localize may hold: the robot, its sensors, its filter.
+struct LocalizeConfig {
+  std::string filter = "ekf";
+  int seed = 1;
+  std::vector<std::string> sensors;  // empty: whatever the log has of odometry, imu, gps, and beacons if known
+  LocalizerParams robot;
+  EkfParams ekf;
+  PfParams pf;
+  std::string align = "auto";
+  double truth_x_m = 0, truth_y_m = 0, truth_yaw = 0;  // T_map_truth
+  bool truth_frame_given = false;
+
+  void visit(ParamVisitor& v);
+  bool uses(const std::string& sensor) const;
+  /// What its sensors can tell of the start.
+  Expectation expectation() const;
+  /// @param where  what named the sensors, for the message
+  /// @throws ConfigError for a sensor that is none, wheels without sizes, beacons that are used but not known.
+  void check(const std::string& where) const;
+};
+
+/// The filter that the configuration names. @param seed  of what it draws
+std::unique_ptr<PoseFilter> makeFilter(const LocalizeConfig& config, uint64_t seed);
+
+/// Carries observations of a log to the localizer's doors.
+class LocalizationFeed {
+ public:
+  LocalizationFeed(const LocalizeConfig& config, Localizer& localizer) : config_(config), localizer_(localizer) {}
+  /// Observations of sensors that are not used are left out.
+  void feed(const LogEntry& e);
+  /// Kinds by the labels that were fed.
+  const std::map<std::string, SensorKind>& kinds() const { return kinds_; }
+
+ private:
+  int streamOf(const LogEntry& e);
+
+  const LocalizeConfig& config_;
+  Localizer& localizer_;
+  std::map<std::string, int> streams_;
+  std::map<std::string, SensorKind> kinds_;
+};
+
+/// "kind=label" words as a map. @throws ConfigError
+std::map<std::string, std::string> labelMap(const std::vector<std::string>& words);
+
+}  // namespace sidestep

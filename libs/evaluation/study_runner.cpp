@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/study_runner.h"
+
+#include <functional>
+#include <map>
+
+#include "core/errors.h"
+#include "evaluation/localization_runner.h"
+
+namespace sidestep {
+namespace {
+
+using Maker = std::function<std::unique_ptr<StudyRunner>(const std::string&)>;
+
+const std::map<std::string, Maker>& makers() {
+  static const std::map<std::string, Maker> table = {{"localization", makeLocalizationRunner}};
+  return table;
+}
+
+}  // namespace
+
+const std::vector<std::string>& studyKinds() {
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> out;
+    for (const auto& [word, maker] : makers()) out.push_back(word);
+    return out;
+  }();
+  return words;
+}
+
+std::unique_ptr<StudyRunner> makeStudyRunner(const std::string& kind, const std::string& study_file) {
+  const auto it = makers().find(kind);
+  if (it == makers().end()) throw ConfigError(study_file + ": kind = " + kind + " is no kind of study");
+  return it->second(study_file);
+}
+
+}  // namespace sidestep

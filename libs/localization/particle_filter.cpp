@@ -1,0 +1,479 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/particle_filter.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "localization/ekf.h"
+#include "localization/fast_math.h"
+
+namespace sidestep {
+namespace {
+
+using Kind = Measurement::Kind;
+
+constexpr double kLeastVariance = 1e-12;                 // of a measurement said to be exact
+constexpr double kFarthest_m = 1e8;                      // what is farther out is no measurement on this planet
+constexpr double kMostTurn = 1e6;                        // rad
+constexpr double kFewest = 10;                           // effective particles that must explain a measurement
+constexpr double kMostSpread_m = 2, kMostSpread = 0.35;  // of one mode; roughening goes by no more
+
+size_t group(const Measurement& m) { return m.kind == Kind::kHeading ? 1 : 0; }
+
+bool hasHeading(const Measurement& m) { return m.kind == Kind::kHeading || m.kind == Kind::kPositionHeading; }
+
+bool sane(const MotionStep& s) {
+  return s.dt_s >= 0 && s.dt_s < 1e9 && std::abs(s.distance_m) < kFarthest_m && std::abs(s.turn_rad) < kMostTurn &&
+         s.distance_var >= 0 && s.distance_var < kFarthest_m * kFarthest_m && s.turn_var >= 0 &&
+         s.turn_var < kMostTurn * kMostTurn;
+}
+
+bool sane(const Measurement& m) {
+  const int n = m.size();
+  const auto R = m.R.topLeftCorner(n, n);
+  return m.z.head(n).allFinite() && m.z.head(n).cwiseAbs().maxCoeff() < kFarthest_m && R.allFinite() &&
+         R.diagonal().minCoeff() >= 0 && R.maxCoeff() < kFarthest_m * kFarthest_m && m.p_base_sensor.allFinite() &&
+         m.p_map_beacon.allFinite();
+}
+
+bool sane(const PoseBelief& b) {
+  return std::abs(b.mean.x) < kFarthest_m && std::abs(b.mean.y) < kFarthest_m && std::abs(b.mean.phi) < kMostTurn &&
+         b.covariance.allFinite() && b.covariance.cwiseAbs().maxCoeff() < kFarthest_m * kFarthest_m;
+}
+
+}  // namespace
+
+void PfParams::visit(ParamVisitor& v) {
+  v.integer("particles", particles, {10, 1000000}, "how many (at the start, if kld)");
+  v.choice("likelihood", likelihood, {"gaussian", "printed"},
+           "weight of a particle: by each component's own variance, or exp(-EN^0.4 / 2) as in algorithm 3");
+  v.choice("motion_noise", motion_noise, {"odometry", "printed"},
+           "noise of a motion: the variances of odometry.noise, or sd1 .. sd3 in each step");
+  v.number("sd1", sd1, {0, 100}, "m/s", "printed: noise of the speed");
+  v.number("sd2", sd2, {0, 100}, "rad/s", "printed: noise of the turn rate");
+  v.number("sd3", sd3, {0, 100}, "rad/s", "printed: noise of the final turn");
+  v.number("gate_probability", gate_probability, {0.5, 0.999999999}, "",
+           "share of good measurements inside the gate; one at its bound is as likely false as true (gaussian)");
+  v.number("recovery_patience_s", recovery_patience_s, {0, 1e9}, "s",
+           "positions (or headings) all refused for this long draw particles anew");
+  v.number("recovery_share", recovery_share, {0, 0.9}, "", "share of the particles then drawn from the measurement");
+  v.angle("heading_offset_sd_deg", heading_offset_sd, {0, 360}, "sd of the IMU's unknown heading offset; 0 = none");
+  v.angle("heading_offset_walk_deg", heading_offset_walk, {0, 90}, "how much that offset drifts in a second");
+  v.angle("yaw_rate_bias_sd_deg", yaw_rate_bias_sd, {0, 90}, "sd of the gyro's unknown bias (deg/s); 0 = none");
+  v.section("resampling", "how the next particles are drawn", [this](ParamVisitor& w) { resampling.visit(w); });
+}
+
+ParticleFilter::ParticleFilter(const PfParams& params, uint64_t seed)
+    : params_(params), scheme_(resamplingScheme(params.resampling.scheme)), random_(seed) {
+  for (int dof = 1; dof <= 3; ++dof) gate_[static_cast<size_t>(dof)] = chiSquareQuantile(params.gate_probability, dof);
+  const auto& r = params.resampling;
+  const auto most = static_cast<size_t>(std::max(params.particles, r.kld ? std::max(r.kld_min, r.kld_max) : 0));
+  cloud_.reserve(most);
+  resampler_.reserve(most);
+  if (r.kld) cells_.reserve(most);
+  indices_.resize(most);
+  for (auto& a : nu_) a.resize(static_cast<Eigen::Index>(most));
+  likelihood_.resize(static_cast<Eigen::Index>(most));
+  start({});
+}
+
+void ParticleFilter::start(const PoseBelief& belief) {
+  cloud_.draw(sane(belief) ? belief : PoseBelief(), static_cast<size_t>(params_.particles), random_);
+  offset_var_ = params_.heading_offset_sd * params_.heading_offset_sd;
+  bias_ = 0;
+  bias_var_ = params_.yaw_rate_bias_sd * params_.yaw_rate_bias_sd;
+  refused_since_.fill(0);
+}
+
+// ---- prediction ----
+
+void ParticleFilter::predict(const MotionStep& motion) {
+  if (motion.still || !sane(motion)) return;
+  MotionStep step = motion;
+  ParticleCloud::MotionNoise noise;
+  if (params_.motion_noise == "printed") {
+    noise = {params_.sd1 * step.dt_s, params_.sd2 * step.dt_s, params_.sd3 * step.dt_s};
+  } else {
+    const double by_bias = step.turn_from_gyro ? bias_var_ * step.dt_s * step.dt_s : 0;
+    noise = {std::sqrt(step.distance_var), std::sqrt(step.turn_var + by_bias), 0};
+  }
+  if (step.turn_from_gyro) step.turn_rad -= bias_ * step.dt_s;
+  cloud_.move(step, noise, random_);
+  offset_var_ += params_.heading_offset_walk * params_.heading_offset_walk * step.dt_s;
+}
+
+// ---- innovations ----
+
+void ParticleFilter::positionInnovations(const Measurement& m) {
+  const auto n = static_cast<Eigen::Index>(cloud_.size());
+  const double ahead = m.p_base_sensor.x(), left = m.p_base_sensor.y();
+  if (ahead == 0 && left == 0) {
+    row(0) = m.z(0) - cloud_.x.head(n);
+    row(1) = m.z(1) - cloud_.y.head(n);
+    return;
+  }
+  const double* __restrict x = cloud_.x.data(), * __restrict y = cloud_.y.data(), * __restrict yaw = cloud_.yaw.data();
+  double* __restrict nu_x = nu_[0].data(), * __restrict nu_y = nu_[1].data();
+  const double zx = m.z(0), zy = m.z(1);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    double s, c;
+    sineCosine(yaw[i], s, c);
+    nu_x[i] = zx - (x[i] + c * ahead - s * left);
+    nu_y[i] = zy - (y[i] + s * ahead + c * left);
+  }
+}
+
+void ParticleFilter::headingInnovations(const Measurement& m, int k) {
+  const auto n = static_cast<Eigen::Index>(cloud_.size());
+  const double* __restrict yaw = cloud_.yaw.data(), * __restrict offset = cloud_.offset.data();
+  double* __restrict nu = nu_[static_cast<size_t>(k)].data();
+  const double z = wrapAngle(m.z(k)), take = m.heading_has_offset ? 1 : 0;
+  for (Eigen::Index i = 0; i < n; ++i) nu[i] = wrapAngle(z - yaw[i] - take * offset[i]);
+}
+
+void ParticleFilter::rangeInnovations(const Measurement& m) {
+  positionInnovations(m);  // of z = (range, 0): only the sensor's place in them is wanted
+  const double bx = m.z(0) - m.p_map_beacon.x(), by = m.z(1) - m.p_map_beacon.y();
+  const double dz = m.p_base_sensor.z() - m.p_map_beacon.z();
+  row(0) = m.z(0) - ((bx - row(0)).square() + (by - row(1)).square() + dz * dz).sqrt();
+}
+
+void ParticleFilter::innovations(const Measurement& m) {
+  switch (m.kind) {
+    case Kind::kPositionHeading:
+      headingInnovations(m, 2);
+      [[fallthrough]];
+    case Kind::kPosition:
+      return positionInnovations(m);
+    case Kind::kHeading:
+      return headingInnovations(m, 0);
+    case Kind::kRange:
+      return rangeInnovations(m);
+    case Kind::kStill:
+      return;
+  }
+}
+
+/// R, and for a heading what is not known of its offset.
+Eigen::Matrix3d ParticleFilter::noise(const Measurement& m) const {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  const int n = m.size();
+  R.topLeftCorner(n, n) = m.R.topLeftCorner(n, n);
+  R.diagonal() = R.diagonal().cwiseMax(kLeastVariance);
+  if (hasHeading(m) && m.heading_has_offset) R(n - 1, n - 1) += offset_var_;
+  return R;
+}
+
+/// Covariance of the innovations over the cloud, and their mean.
+Eigen::Matrix3d ParticleFilter::meanSquares(int size, Eigen::Vector3d& mean) const {
+  const auto w = cloud_.weights();
+  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+  mean.setZero();
+  const auto n = static_cast<Eigen::Index>(cloud_.size());
+  for (int a = 0; a < size; ++a) mean(a) = (w * row(a)).sum();
+  for (int a = 0; a < size; ++a)
+    for (int b = 0; b <= a; ++b) {
+      const double *u = nu_[static_cast<size_t>(a)].data(), *v = nu_[static_cast<size_t>(b)].data();
+      PairSum sum;
+      forPairs(n, [&](Eigen::Index i, auto lane) {
+        sum.add(at(cloud_.weight.data(), i, lane) * (at(u, i, lane) - mean(a)) * (at(v, i, lane) - mean(b)));
+      });
+      out(a, b) = out(b, a) = sum.total();
+    }
+  return out;
+}
+
+// ---- weights ----
+
+void ParticleFilter::weighByGaussian(int size, const Eigen::Matrix3d& R) {
+  const Eigen::Matrix3d W = R.inverse();
+  auto q = likelihoods();
+  if (size == 1)
+    q = -0.5 * W(0, 0) * row(0).square();
+  else if (size == 2)
+    q = -0.5 * W(0, 0) * row(0).square() - W(0, 1) * row(0) * row(1) - 0.5 * W(1, 1) * row(1).square();
+  else
+    q = -0.5 * (row(0) * (W(0, 0) * row(0) + 2 * W(0, 1) * row(1) + 2 * W(0, 2) * row(2)) +
+                row(1) * (W(1, 1) * row(1) + 2 * W(1, 2) * row(2)) + W(2, 2) * row(2).square());
+  double* __restrict l = likelihood_.data();
+  for (Eigen::Index i = 0; i < q.size(); ++i) l[i] = weightExp(l[i]);
+}
+
+/// Algorithm 3, lines 12-18; the factor |2 pi R|^-1/2 is the same for all particles.
+void ParticleFilter::weighAsPrinted(int size) {
+  auto q = likelihoods();
+  q = row(0).square();
+  for (int k = 1; k < size; ++k) q += row(k).square();
+  q = (-0.5 * (0.2 * q.max(1e-300).log()).exp()).exp();
+}
+
+void ParticleFilter::multiplyWeights(double floor) {
+  auto w = cloud_.weights();
+  w *= likelihoods() + floor;
+  const double sum = w.sum();
+  if (sum > 0 && std::isfinite(sum))
+    w *= 1 / sum;
+  else
+    cloud_.equalWeights();
+}
+
+// ---- correction ----
+
+Correction ParticleFilter::correct(const Measurement& m) {
+  if (!sane(m)) return {Correction::Reason::kNotFinite, 0, m.size()};
+  return m.kind == Kind::kStill ? correctBias(m) : correctPose(m);
+}
+
+Correction ParticleFilter::correctBias(const Measurement& m) {
+  if (!(bias_var_ > 0)) return {Correction::Reason::kNotObservable, 0, 1};
+  const double nu = m.z(0) - bias_, S = bias_var_ + std::max(m.R(0, 0), kLeastVariance), K = bias_var_ / S;
+  if (nu * nu / S > gate_[1]) return {Correction::Reason::kGated, nu * nu / S, 1};
+  bias_ += K * nu;
+  bias_var_ *= 1 - K;
+  return {Correction::Reason::kAccepted, nu * nu / S, 1};
+}
+
+Correction ParticleFilter::correctPose(const Measurement& m) {
+  const int size = m.size();
+  innovations(m);
+  const Eigen::Matrix3d R = noise(m);
+  Eigen::Vector3d nu;
+  const Eigen::Matrix3d S = meanSquares(size, nu) + R;  // the identity in rows that do not count
+  Correction result{Correction::Reason::kAccepted,
+                    nu.head(size).dot(S.inverse().topLeftCorner(size, size) * nu.head(size)), size};
+  if (params_.likelihood == "printed") {
+    weighAsPrinted(size);
+    multiplyWeights(0);
+  } else {
+    weighByGaussian(size, R);
+    const auto w = cloud_.weights();
+    const double floor =
+        std::sqrt(R.determinant() / S.determinant()) * std::exp(-0.5 * gate_[static_cast<size_t>(size)]);
+    const double mean = (w * likelihoods()).sum(), squares = (w * likelihoods()).square().sum();
+    const bool outside = result.nis > gate_[static_cast<size_t>(size)] && mean < floor;
+    if (outside && !outOfPatience(m)) {
+      result.reason = Correction::Reason::kGated;
+      return result;
+    }
+    if (outside) {
+      result.reason = Correction::Reason::kReset;
+      inject(m);
+      return result;
+    }
+    refused_since_[group(m)] = 0;
+    if (!(mean * mean > kFewest * squares)) {
+      moveTowards(m, S, R);
+      return result;
+    }
+    multiplyWeights(floor);
+  }
+  updateOffsets(m);
+  const double n = static_cast<double>(cloud_.size());
+  const auto& r = params_.resampling;
+  if (r.each_step || effectiveSampleSize(cloud_.weight.data(), cloud_.size()) < r.ess_share * n) resample();
+  return result;
+}
+
+void ParticleFilter::updateOffsets(const Measurement& m) {
+  if (!hasHeading(m) || !m.heading_has_offset || !(offset_var_ > 0)) return;
+  const int k = m.size() - 1;
+  const double S = offset_var_ + std::max(m.R(k, k), kLeastVariance), K = offset_var_ / S;
+  cloud_.offset.head(static_cast<Eigen::Index>(cloud_.size())) += K * row(k);
+  offset_var_ *= 1 - K;
+}
+
+void ParticleFilter::moveTowards(const Measurement& m, const Eigen::Matrix3d& S, const Eigen::Matrix3d& R) {
+  const int size = m.size();
+  const auto n = static_cast<Eigen::Index>(cloud_.size());
+  const PoseBelief b = cloud_.belief();
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();  // of pose and expected measurement
+  Eigen::Vector3d mean;
+  meanSquares(size, mean);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector3d d(cloud_.x[i] - b.mean.x, cloud_.y[i] - b.mean.y, wrapAngle(cloud_.yaw[i] - b.mean.phi));
+    for (int k = 0; k < size; ++k) cross.col(k) -= cloud_.weight[i] * (row(k)[i] - mean(k)) * d;
+  }
+  const Eigen::Matrix3d K = cross * S.inverse();
+  const Eigen::Matrix3d root = R.llt().matrixL();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Eigen::Vector3d e, nu = Eigen::Vector3d::Zero();
+    random_.gaussians(e.data(), 3);
+    e = root * e;
+    for (int k = 0; k < size; ++k) nu(k) = row(k)[i] + e(k);
+    const Eigen::Vector3d d = K * nu;
+    if (!d.allFinite()) continue;
+    cloud_.x[i] += d.x();
+    cloud_.y[i] += d.y();
+    cloud_.yaw[i] = wrapAngle(cloud_.yaw[i] + d.z());
+  }
+  innovations(m);
+  updateOffsets(m);
+}
+
+// ---- recovery ----
+
+bool ParticleFilter::outOfPatience(const Measurement& m) {
+  double& since = refused_since_[group(m)];
+  if (since == 0) since = m.time_s;
+  if (m.time_s - since < params_.recovery_patience_s) return false;
+  since = 0;
+  return true;
+}
+
+/// A pose that the measurement would say is the robot's, in all else as particle `like`; the heading only half the
+/// time.
+mrpt::math::TPose2D ParticleFilter::drawFrom(const Measurement& m, Eigen::Index like) {
+  mrpt::math::TPose2D p{cloud_.x[like], cloud_.y[like], cloud_.yaw[like]};
+  Eigen::Vector3d e;
+  random_.gaussians(e.data(), 3);
+  e = m.R.diagonal().cwiseMax(0).cwiseSqrt().cwiseProduct(e);
+  const double any = random_.uniform(-M_PI, M_PI), offset = m.heading_has_offset ? cloud_.offset[like] : 0;
+  if (hasHeading(m))
+    p.phi = wrapAngle(m.z(m.size() - 1) - offset + e(m.size() - 1));
+  else if (random_.uniform() < 0.5)
+    p.phi = any;
+  if (m.kind == Kind::kHeading) return p;
+  const double c = std::cos(p.phi), s = std::sin(p.phi);
+  const double lever_x = c * m.p_base_sensor.x() - s * m.p_base_sensor.y();
+  const double lever_y = s * m.p_base_sensor.x() + c * m.p_base_sensor.y();
+  mrpt::math::TPoint2D sensor{m.z(0) + e(0), m.z(1) + e(1)};
+  if (m.kind == Kind::kRange) {
+    const double dz = m.p_base_sensor.z() - m.p_map_beacon.z(), r = m.z(0) + e(0);
+    const double ground = std::sqrt(std::max(0.0, r * r - dz * dz));
+    const double towards = random_.uniform() < 0.5
+                               ? random_.uniform(-M_PI, M_PI)
+                               : std::atan2(p.y + lever_y - m.p_map_beacon.y(), p.x + lever_x - m.p_map_beacon.x());
+    sensor = {m.p_map_beacon.x() + ground * std::cos(towards), m.p_map_beacon.y() + ground * std::sin(towards)};
+  }
+  p.x = sensor.x - lever_x;
+  p.y = sensor.y - lever_y;
+  return p;
+}
+
+void ParticleFilter::inject(const Measurement& m) {
+  const size_t n = cloud_.size();
+  const auto kept = static_cast<size_t>(std::ceil((1 - params_.recovery_share) * static_cast<double>(n)));
+  resampler_.draw(scheme_, cloud_.weight.data(), n, kept, random_, indices_.data());
+  cloud_.select(indices_.data(), kept);
+  cloud_.resize(n);
+  for (size_t k = kept; k < n; ++k) {
+    const auto i = static_cast<Eigen::Index>(k), like = static_cast<Eigen::Index>(random_.below(kept));
+    const auto p = drawFrom(m, like);
+    cloud_.x[i] = p.x;
+    cloud_.y[i] = p.y;
+    cloud_.yaw[i] = p.phi;
+    cloud_.offset[i] = cloud_.offset[like];
+  }
+  cloud_.equalWeights();
+}
+
+// ---- resampling ----
+
+size_t ParticleFilter::wantedSize(size_t drawn) {
+  const auto& r = params_.resampling;
+  cells_.clear();
+  for (size_t k = 0; k < drawn; ++k) {
+    if (k > 0 && indices_[k] == indices_[k - 1]) continue;
+    const auto i = static_cast<Eigen::Index>(indices_[k]);
+    cells_.add(cloud_.x[i], cloud_.y[i], cloud_.yaw[i], r.kld_cell_m, r.kld_cell);
+  }
+  const double n = kldSampleSize(cells_.count(), r.kld_error, r.kld_quantile);
+  return static_cast<size_t>(
+      std::clamp(n, static_cast<double>(std::min(r.kld_min, r.kld_max)), static_cast<double>(r.kld_max)));
+}
+
+void ParticleFilter::resample() {
+  size_t count = cloud_.size();
+  resampler_.draw(scheme_, cloud_.weight.data(), cloud_.size(), count, random_, indices_.data());
+  if (params_.resampling.kld) {
+    count = wantedSize(count);
+    resampler_.draw(scheme_, cloud_.weight.data(), cloud_.size(), count, random_, indices_.data());
+  }
+  cloud_.select(indices_.data(), count);
+  if (params_.resampling.roughening > 0) roughen(count);
+}
+
+/// Noise on all copies of a particle but the first, by the spread of the cloud in each component.
+void ParticleFilter::roughen(size_t count) {
+  const auto n = static_cast<Eigen::Index>(count);
+  const double share = 1 / static_cast<double>(count);
+  const auto spread = [&](const Eigen::ArrayXd& a, double reference) {
+    const auto d = a.head(n) - reference;
+    const double mean = d.sum() * share;
+    return std::sqrt(std::max(0.0, d.square().sum() * share - mean * mean));
+  };
+  auto turns = likelihoods();  // free by now
+  const double first = cloud_.yaw[0];
+  const double* __restrict yaw = cloud_.yaw.data();
+  double* __restrict t = likelihood_.data();
+  for (Eigen::Index i = 0; i < n; ++i) t[i] = wrapAngle(yaw[i] - first);
+  const double mean = turns.sum() * share;
+  const double r = params_.resampling.roughening;
+  const double sd_x = r * std::min(kMostSpread_m, spread(cloud_.x, cloud_.x[0]));
+  const double sd_y = r * std::min(kMostSpread_m, spread(cloud_.y, cloud_.y[0]));
+  const double sd_yaw = r * std::min(kMostSpread, std::sqrt(std::max(0.0, turns.square().sum() * share - mean * mean)));
+  for (size_t k = 1; k < count; ++k) {
+    if (indices_[k] != indices_[k - 1]) continue;
+    const auto i = static_cast<Eigen::Index>(k);
+    double g[3];
+    random_.gaussians(g, 3);
+    cloud_.x[i] += sd_x * g[0];
+    cloud_.y[i] += sd_y * g[1];
+    cloud_.yaw[i] = wrapAngle(cloud_.yaw[i] + sd_yaw * g[2]);
+  }
+}
+
+std::vector<PoseMode> ParticleFilter::modes() const {
+  const auto& r = params_.resampling;
+  return cloud_.modes(2 * r.kld_cell_m, 2 * r.kld_cell, 0.01);
+}
+
+// ---- replay ----
+
+void ParticleFilter::save(std::vector<double>& out) const {
+  const size_t n = cloud_.size();
+  out.resize(4 + kGroups + 8 + 5 * n);
+  double* p = out.data();
+  *p++ = static_cast<double>(n);
+  *p++ = offset_var_;
+  *p++ = bias_;
+  *p++ = bias_var_;
+  p = std::copy(refused_since_.begin(), refused_since_.end(), p);
+  for (const uint64_t word : random_.state()) {  // in halves, each of which a double holds exactly
+    *p++ = static_cast<double>(word >> 32);
+    *p++ = static_cast<double>(word & 0xffffffff);
+  }
+  for (const auto* a : {&cloud_.x, &cloud_.y, &cloud_.yaw, &cloud_.offset, &cloud_.weight})
+    p = std::copy(a->data(), a->data() + n, p);
+}
+
+void ParticleFilter::restore(const std::vector<double>& state) {
+  const double* p = state.data();
+  const auto n = static_cast<size_t>(*p++);
+  offset_var_ = *p++;
+  bias_ = *p++;
+  bias_var_ = *p++;
+  std::copy(p, p + kGroups, refused_since_.begin());
+  p += kGroups;
+  std::array<uint64_t, 4> words{};
+  for (auto& word : words) {
+    word = static_cast<uint64_t>(p[0]) << 32 | static_cast<uint64_t>(p[1]);
+    p += 2;
+  }
+  random_.setState(words);
+  cloud_.resize(n);
+  for (auto* a : {&cloud_.x, &cloud_.y, &cloud_.yaw, &cloud_.offset, &cloud_.weight}) {
+    std::copy(p, p + n, a->data());
+    p += n;
+  }
+}
+
+std::unique_ptr<PoseFilter> makeParticleFilter(const PfParams& params, uint64_t seed) {
+  return std::make_unique<ParticleFilter>(params, seed);
+}
+
+}  // namespace sidestep

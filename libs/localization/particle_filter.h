@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/random.h"
+#include "localization/particle_cloud.h"
+#include "localization/pose_filter.h"
+#include "localization/resampling.h"
+
+namespace sidestep {
+
+/// Parameters of the particle filter; sensors' noises, and those of odometry unless `printed`, belong to their models.
+struct PfParams {
+  int particles = 500;
+  std::string likelihood = "gaussian";
+  std::string motion_noise = "odometry";
+  double sd1 = 0.04;  // m/s
+  double sd2 = 1.2;   // rad/s
+  double sd3 = 0.35;  // rad/s
+  double gate_probability = 0.9973;
+  double recovery_patience_s = 10;
+  double recovery_share = 0.2;
+  double heading_offset_sd = 0.785398163397448279;  // rad
+  double heading_offset_walk = 0;                   // rad / sqrt(s)
+  double yaw_rate_bias_sd = 0;                      // rad/s
+  ResamplingParams resampling;
+
+  void visit(ParamVisitor& v);
+};
+
+/// The particle filter of section 3.2 (algorithms 1, 3, 4), with a Gaussian likelihood beside the printed one.
+///
+/// `gaussian`: a particle's weight is multiplied by exp(-nu' R^-1 nu / 2) + f with its own innovation nu. The floor
+///
+///   f = sqrt(|R| / |S|) exp(-g / 2),   S the innovations' covariance over the cloud, plus R
+///
+/// is the density of a false measurement, taken to be that of a true one at the bound g of the gate, so that an outlier
+/// changes little; one that is outside the gate and that no particle explains better is refused. `printed`:
+/// exp(-EN^0.4 / 2) with EN the length of the innovation (algorithm 3, line 18), blind to R.
+///
+/// A measurement much sharper than the cloud, which fewer than ten effective particles explain, moves all towards it
+/// (stochastic ensemble Kalman update, Evensen 1994) instead of choosing among them. Measurements of a kind
+/// refused for `recovery_patience_s` draw a share of the particles anew from the measurement; what comes next decides
+/// between old and new.
+///
+/// The constant offset of the IMU's heading is estimated beside each particle (Rao-Blackwell): its variance is common
+/// to all. The gyro's bias is a mean of what the gyro says at standstill.
+///
+/// A step of n particles costs O(n) and does not allocate. The numbers drawn depend on the seed and the calls alone.
+class ParticleFilter final : public PoseFilter {
+ public:
+  ParticleFilter(const PfParams& params, uint64_t seed);
+  void start(const PoseBelief& belief) override;
+  void predict(const MotionStep& motion) override;
+  Correction correct(const Measurement& measurement) override;
+  PoseBelief estimate() const override { return cloud_.belief(); }
+  void save(std::vector<double>& out) const override;
+  void restore(const std::vector<double>& state) override;
+
+  const ParticleCloud& cloud() const { return cloud_; }
+  /// Where else the robot may be: groups of neighbouring particles, with at least 1 % of the weight each.
+  std::vector<PoseMode> modes() const;
+
+ private:
+  void innovations(const Measurement& m);
+  void positionInnovations(const Measurement& m);
+  void headingInnovations(const Measurement& m, int row);
+  void rangeInnovations(const Measurement& m);
+  Eigen::Matrix3d noise(const Measurement& m) const;
+  Eigen::Matrix3d meanSquares(int size, Eigen::Vector3d& mean) const;
+  Correction correctPose(const Measurement& m);
+  Correction correctBias(const Measurement& m);
+  void weighByGaussian(int size, const Eigen::Matrix3d& R);
+  void weighAsPrinted(int size);
+  void moveTowards(const Measurement& m, const Eigen::Matrix3d& S, const Eigen::Matrix3d& R);
+  void updateOffsets(const Measurement& m);
+  bool outOfPatience(const Measurement& m);
+  void inject(const Measurement& m);
+  mrpt::math::TPose2D drawFrom(const Measurement& m, Eigen::Index like);
+  void multiplyWeights(double floor);
+  void resample();
+  void roughen(size_t count);
+  size_t wantedSize(size_t drawn);
+  auto row(int k) const { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
+  auto row(int k) { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
+  auto likelihoods() const { return likelihood_.head(static_cast<Eigen::Index>(cloud_.size())); }
+  auto likelihoods() { return likelihood_.head(static_cast<Eigen::Index>(cloud_.size())); }
+
+  static constexpr size_t kGroups = 3;
+  PfParams params_;
+  ResamplingScheme scheme_;
+  std::array<double, 4> gate_{};  // NIS bound by degrees of freedom
+  Random random_;
+  ParticleCloud cloud_;
+  Resampler resampler_;
+  CellCounter cells_;
+  std::vector<uint32_t> indices_;
+  std::array<Eigen::ArrayXd, 3> nu_;  // innovations, a component an array
+  Eigen::ArrayXd likelihood_;
+  double offset_var_ = 0, bias_ = 0, bias_var_ = 0;
+  std::array<double, kGroups> refused_since_{};  // time of the first refusal in a row, 0 = none
+};
+
+std::unique_ptr<PoseFilter> makeParticleFilter(const PfParams& params, uint64_t seed);
+
+}  // namespace sidestep
