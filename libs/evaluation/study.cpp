@@ -161,13 +161,13 @@ void Study::keepScenarios(const std::vector<std::string>& patterns) {
   layOut();
 }
 
-void Study::prepare() {
+void Study::prepare(bool load_data) {
   std::vector<std::string> names, axes;
   for (size_t i = 0; i < scenarios_.size(); ++i) {
     names.push_back(kept_[i] ? scenarios_[i] : "");
     axes.push_back(entries_[i].axis);
   }
-  runner_->prepare(names, axes, algorithms_);
+  runner_->prepare(names, axes, algorithms_, load_data);
 }
 
 std::vector<std::string> Study::reportedMetrics() const { return metrics.empty() ? runner_->metrics() : metrics; }

@@ -10,9 +10,11 @@
 namespace sidestep::testing {
 namespace {
 
-/// The program that reads the files of a folder of share/.
+/// How the files of a folder of share/ are read.
 const std::map<std::string, std::string>& readerOf() {
-  static const std::map<std::string, std::string> table = {{"robots", "sidestep-localize"}};
+  static const std::map<std::string, std::string> table = {{"robots", "sidestep-localize -c"},
+                                                          {"scenarios", "sidestep-simulate"},
+                                                          {"studies", "sidestep-evaluate"}};
   return table;
 }
 
@@ -24,11 +26,11 @@ TEST(Share, EachYamlLoadsAndWhatItMeansReadsBackIdentically) {
     const std::string kind = entry.path().lexically_relative(share).begin()->string();
     ASSERT_EQ(readerOf().count(kind), 1u) << "say in this test which program reads share/" << kind;
     const std::string program = readerOf().at(kind);
-    const auto run = runShell(program + " -c '" + entry.path().string() + "' --write-config");
+    const auto run = runShell(program + " '" + entry.path().string() + "' --write-config");
     EXPECT_EQ(run.exit_code, 0) << run.err;
     const TemporaryFolder folder;
     writeFile(folder / "all.yaml", run.out);
-    EXPECT_EQ(runShell(program + " -c all.yaml --write-config", folder.path()).out, run.out) << entry.path();
+    EXPECT_EQ(runShell(program + " all.yaml --write-config", folder.path()).out, run.out) << entry.path();
     ++files;
   }
   EXPECT_GT(files, 0);
