@@ -161,7 +161,8 @@ ExitCode Evaluation::go() {
 
 ExitCode evaluate(const EvaluateOptions& options) {
   if (options.write_config) {
-    Study study = studyFor(options, false);
+    Study study;
+    if (!options.study.empty()) study = studyFor(options, false);
     std::fputs(writeYaml([&](ParamVisitor& v) { study.visit(v); }).c_str(), stdout);
     return ExitCode::kDone;
   }
