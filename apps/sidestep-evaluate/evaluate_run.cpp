@@ -26,14 +26,14 @@ double steadySeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Study studyFor(const EvaluateOptions& o) {
+Study studyFor(const EvaluateOptions& o, bool load_data = true) {
   if (o.study.empty())
     throw ConfigError("no STUDY given; for example sidestep-evaluate share/studies/table-3.1-3.2.yaml");
   Study study = Study::read(o.study);
   if (o.seed) study.seed = *o.seed;
   if (o.runs) study.runs = *o.runs;
   study.keepScenarios(o.scenarios);
-  study.prepare();
+  study.prepare(load_data);
   return study;
 }
 
@@ -161,7 +161,8 @@ ExitCode Evaluation::go() {
 
 ExitCode evaluate(const EvaluateOptions& options) {
   if (options.write_config) {
-    Study study = studyFor(options);
+    Study study;
+    if (!options.study.empty()) study = studyFor(options, false);
     std::fputs(writeYaml([&](ParamVisitor& v) { study.visit(v); }).c_str(), stdout);
     return ExitCode::kDone;
   }

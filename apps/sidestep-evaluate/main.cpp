@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   EvaluateOptions o;
   CLI::App app("Compares algorithms: runs a study on all cores, with tables, figures and a report.",
                "sidestep-evaluate");
-  app.add_option("STUDY", o.study, "scenarios, algorithms and runs (YAML)")->type_name("");
+  app.add_option("-c,--config,STUDY", o.study, "scenarios, algorithms and runs (YAML)")->type_name("FILE");
   app.add_option("-o,--output", o.output, "output folder")->type_name("DIR")->capture_default_str();
   app.add_flag("-w,--overwrite", o.overwrite, "write into a folder that holds something");
   app.add_flag("-q,--quiet", o.quiet, "no progress bar");

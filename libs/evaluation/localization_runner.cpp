@@ -86,12 +86,12 @@ class LocalizationRunner final : public StudyRunner {
   std::vector<std::string> metrics() const override { return driveMetricNames(); }
 
   void prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
-               const std::vector<std::string>& algorithms) override;
+               const std::vector<std::string>& algorithms, bool load_data) override;
   std::vector<double> run(const StudyPlace& place) const override;
   bool draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const override;
 
  private:
-  void load(ScenarioEntry& s, const std::string& where) const;
+  void load(ScenarioEntry& s, const std::string& where, bool load_data) const;
   LocalizeConfig baseConfig(const ScenarioEntry& s) const;
   DriveResult localize(const StudyPlace& place, const SignalLoss& loss) const;
   SignalLoss lossOf(const StudyPlace& place) const;
@@ -101,9 +101,10 @@ class LocalizationRunner final : public StudyRunner {
   std::vector<std::string> algorithms_;
 };
 
-void LocalizationRunner::load(ScenarioEntry& s, const std::string& where) const {
+void LocalizationRunner::load(ScenarioEntry& s, const std::string& where, bool load_data) const {
   if (!s.log.empty() && !(s.file.empty() && isBlank(s.set)))
     throw ConfigError(where + ": is either simulated (file, set) or recorded (log)");
+  if (!s.log.empty() && !load_data) return;
   if (!s.log.empty()) {
     const auto log = resolvedPath(s.log, file_);
     if (!std::filesystem::exists(log))
@@ -155,12 +156,12 @@ LocalizeConfig LocalizationRunner::baseConfig(const ScenarioEntry& s) const {
 }
 
 void LocalizationRunner::prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
-                                 const std::vector<std::string>& algorithms) {
+                                 const std::vector<std::string>& algorithms, bool load_data) {
   for (size_t i = 0; i < scenarios_.size(); ++i) {
     auto& s = scenarios_[i];
     if (scenarios[i].empty()) continue;  // left out
     const std::string where = file_ + ": scenarios." + scenarios[i];
-    load(s, where);
+    load(s, where, load_data);
     if (!axes[i].empty() && s.interruption.loses == "none")
       throw ConfigError(where + ".outage.loses: = none, but the axis outage_s needs something that is lost");
     LocalizeConfig base = baseConfig(s);

@@ -107,8 +107,6 @@ void Study::layOut() {
 }
 
 void Study::check() const {
-  if (scenarios_.empty()) throw ConfigError(file_ + ": scenarios: the study names none");
-  if (algorithms_.empty()) throw ConfigError(file_ + ": algorithms: the study names none");
   for (size_t i = 0; i < scenarios_.size(); ++i) {
     checkName(scenarios_[i], file_ + ": scenarios");
     const auto& e = entries_[i];
@@ -161,13 +159,15 @@ void Study::keepScenarios(const std::vector<std::string>& patterns) {
   layOut();
 }
 
-void Study::prepare() {
+void Study::prepare(bool load_data) {
+  if (load_data && scenarios_.empty()) throw ConfigError(file_ + ": scenarios: the study names none");
+  if (load_data && algorithms_.empty()) throw ConfigError(file_ + ": algorithms: the study names none");
   std::vector<std::string> names, axes;
   for (size_t i = 0; i < scenarios_.size(); ++i) {
     names.push_back(kept_[i] ? scenarios_[i] : "");
     axes.push_back(entries_[i].axis);
   }
-  runner_->prepare(names, axes, algorithms_);
+  runner_->prepare(names, axes, algorithms_, load_data);
 }
 
 std::vector<std::string> Study::reportedMetrics() const { return metrics.empty() ? runner_->metrics() : metrics; }

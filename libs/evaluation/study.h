@@ -32,7 +32,7 @@ class Study {
   /// @throws ConfigError for a pattern that matches none.
   void keepScenarios(const std::vector<std::string>& patterns);
   /// Loads what the runs need. @throws see StudyRunner::prepare
-  void prepare();
+  void prepare(bool load_data = true);
 
   const std::vector<StudyRow>& rows() const { return rows_; }
   const std::vector<std::string>& algorithms() const { return algorithms_; }

@@ -33,8 +33,9 @@ class StudyRunner {
   /// What the x of a scenario may stand for; checked by the study's reader.
   virtual std::vector<std::string> axes() const = 0;
   /// @throws ConfigError, DatasetError with one line that says which entry needs what.
+  /// @param load_data  false: check the parameters only, recorded data need not be there
   virtual void prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
-                       const std::vector<std::string>& algorithms) = 0;
+                       const std::vector<std::string>& algorithms, bool load_data) = 0;
   virtual std::vector<std::string> metrics() const = 0;
   /// The values of `metrics()`, NaN where one is not defined. Throws if the run came to nothing.
   virtual std::vector<double> run(const StudyPlace& place) const = 0;
