@@ -42,6 +42,7 @@ LocalizeConfig effectiveConfig(const LocalizeOptions& o) {
   LocalizeConfig c;
   if (!o.config_file.empty()) readYaml(o.config_file, [&](ParamVisitor& v) { c.visit(v); });
   if (!o.filter.empty()) c.filter = o.filter;
+  if (o.smooth) c.smooth = true;
   if (!o.align.empty()) c.align = o.align;
   if (o.seed) c.seed = *o.seed;
   if (!o.sensors.empty()) c.sensors = split(o.sensors);

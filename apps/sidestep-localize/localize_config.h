@@ -15,7 +15,7 @@ struct LocalizeOptions {
   std::string filter, sensors, align;
   std::vector<std::string> labels;
   double from_s = 0, to_s = 1e18;
-  bool overwrite = false, quiet = false, write_config = false, no_picture = false;
+  bool overwrite = false, quiet = false, write_config = false, no_picture = false, smooth = false;
   std::optional<int> seed;
 };
 

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <map>
 
 #include "common/program.h"
@@ -65,7 +66,9 @@ class Run {
         feed_(config, localizer_),
         truth_(options.ground_truth, config),
         log_(folder_.file("estimate.rawlog"), commandLine()),
-        tum_(folder_.file("trajectory.tum")) {}
+        tum_(folder_.file("trajectory.tum")) {
+    if (config.smooth) localizer_.smoothAtEnd();
+  }
 
   ExitCode go();
 
@@ -77,8 +80,12 @@ class Run {
     r.to_s = o.to_s;
     return r;
   }
-  void handle(const LogEntry& e);
+  void read(LogReader& reader, const char* what, const std::function<void(const LogEntry&)>& handle);
+  void filter();
+  void smooth();
+  void record(const LogEntry& e);
   void take();
+  void tell(const Estimate& e);
   Alignment alignment() const;
   LocalizationMetrics metrics() const;
   void draw(const LocalizationMetrics& m) const;
@@ -107,31 +114,68 @@ void Run::warn(const std::string& line) {
   std::fprintf(stderr, "sidestep-localize: %s\n", line.c_str());
 }
 
-void Run::handle(const LogEntry& e) {
+void Run::record(const LogEntry& e) {
   if (first_s_ == 0) first_s_ = e.time_s;
   last_s_ = e.time_s;
   if (e.kind == SensorKind::kEstimate) return;  // a log of ours, localized again: the new estimate replaces the old
   log_.input(e.time_s, *e.observation);
-  if (e.kind == SensorKind::kGroundTruth) {
-    if (const auto* p = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(e.observation.get()))
-      truth_.push(e.time_s, {p->pose.mean.x(), p->pose.mean.y(), p->pose.mean.yaw()});
-    return;
-  }
-  feed_.feed(e);
-  take();
+  if (e.kind != SensorKind::kGroundTruth) return;
+  if (const auto* p = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(e.observation.get()))
+    truth_.push(e.time_s, {p->pose.mean.x(), p->pose.mean.y(), p->pose.mean.yaw()});
+}
+
+void Run::tell(const Estimate& e) {
+  log_.estimate(e.time_s, asObservation(e));
+  tum_.write(e.time_s, e.belief.mean);
+  figure_.estimate.add(e.belief.mean.x, e.belief.mean.y);
+  figure_.odometry.add(e.odometry.x, e.odometry.y);
+  ellipses_.add(e);
+  truth_.add(e);
+  ++estimates_;
 }
 
 void Run::take() {
-  for (const auto& e : localizer_.takeEstimates()) {
-    log_.estimate(e.time_s, asObservation(e));
-    tum_.write(e.time_s, e.belief.mean);
-    figure_.estimate.add(e.belief.mean.x, e.belief.mean.y);
-    figure_.odometry.add(e.odometry.x, e.odometry.y);
-    ellipses_.add(e);
-    truth_.add(e);
-    ++estimates_;
-  }
+  for (const auto& e : localizer_.takeEstimates()) tell(e);
   for (const auto& p : localizer_.takeFixes()) figure_.fixes.add(p.x, p.y);
+}
+
+void Run::read(LogReader& reader, const char* what, const std::function<void(const LogEntry&)>& handle) {
+  ProgressBar bar(what, options_.quiet);
+  uint64_t count = 0;
+  while (!interrupted()) {
+    const auto entry = reader.next();
+    if (!entry) break;
+    handle(*entry);
+    if (++count % 256 == 0)
+      bar.update(static_cast<double>(reader.bytesConsumed()) / std::max(1.0, static_cast<double>(reader.fileSize())));
+  }
+}
+
+/// Estimates go out as they come.
+void Run::filter() {
+  read(reader_, "localizing", [this](const LogEntry& e) {
+    record(e);
+    feed_.feed(e);
+    take();
+  });
+  localizer_.finish();
+  take();
+}
+
+/// The log is read twice: once for the estimates, which wait for its end, once to write it with them.
+void Run::smooth() {
+  read(reader_, "localizing", [this](const LogEntry& e) { feed_.feed(e); });
+  localizer_.finish();
+  const auto estimates = localizer_.takeEstimates();
+  for (const auto& p : localizer_.takeFixes()) figure_.fixes.add(p.x, p.y);
+  auto next = estimates.begin();
+  LogReader again(options_.log, readerOptions(options_, config_));
+  read(again, "writing", [&](const LogEntry& e) {
+    for (; next != estimates.end() && next->time_s < e.time_s; ++next) tell(*next);
+    record(e);
+  });
+  if (!interrupted())
+    for (; next != estimates.end(); ++next) tell(*next);
 }
 
 bool Run::used(const std::string& sensor) const {
@@ -199,20 +243,7 @@ void Run::checkSensors() {
 
 ExitCode Run::go() {
   folder_.writeConfiguration([this](ParamVisitor& v) { const_cast<LocalizeConfig&>(config_).visit(v); });
-  {
-    ProgressBar bar("localizing", options_.quiet);
-    uint64_t count = 0;
-    while (!interrupted()) {
-      const auto entry = reader_.next();
-      if (!entry) break;
-      handle(*entry);
-      if (++count % 256 == 0)
-        bar.update(static_cast<double>(reader_.bytesConsumed()) /
-                   std::max(1.0, static_cast<double>(reader_.fileSize())));
-    }
-  }
-  localizer_.finish();
-  take();
+  config_.smooth ? smooth() : filter();
   truth_.finish();
   log_.close();
   tum_.close();

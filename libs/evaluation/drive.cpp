@@ -56,6 +56,7 @@ bool isLost(const LogEntry& e, double time_s, const SignalLoss& loss) {
 DriveResult localizeSimulated(const LocalizationScenario& scenario, const LocalizeConfig& config,
                               const SignalLoss& loss, uint64_t world_seed, uint64_t filter_seed) {
   Localizer localizer(config.robot, makeFilter(config, filter_seed), config.expectation());
+  if (config.smooth) localizer.smoothAtEnd();
   const int odometry = localizer.addStream("odometry"), imu = localizer.addStream("imu"),
             gps = localizer.addStream("gps");
   const bool use_imu = config.uses("imu"), use_heading = use_imu && config.robot.imu.heading != "off",
@@ -117,6 +118,7 @@ RecordedDrive readDrive(const std::string& log, const std::string& truth_file, c
 DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& config, const SignalLoss& loss,
                              uint64_t filter_seed) {
   Localizer localizer(config.robot, makeFilter(config, filter_seed), config.expectation());
+  if (config.smooth) localizer.smoothAtEnd();
   LocalizationFeed feed(config, localizer);
   GroundTruth truth;
   auto next_truth = drive.truth.begin();

@@ -31,6 +31,7 @@ void checkSensors(const std::vector<std::string>& sensors, const std::string& wh
 
 void LocalizeConfig::visit(ParamVisitor& v) {
   v.choice("filter", filter, {"ekf", "pf", "odometry"}, "the estimator");
+  v.flag("smooth", smooth, "estimates by the whole log (Rauch-Tung-Striebel), not only by what came before; ekf only");
   v.integer("seed", seed, {0, 2e9}, "of the random numbers, for filters that draw any");
   v.texts("sensors", sensors, "of odometry, imu, gps, beacons; empty: those that the log has");
   v.choice("align", align, {"auto", "none", "first", "se2"},
@@ -59,6 +60,8 @@ Expectation LocalizeConfig::expectation() const {
 void LocalizeConfig::check(const std::string& where) const {
   checkSensors(sensors, where);
   robot.odometry.check();
+  if (smooth && filter == "pf")
+    throw ConfigError("smooth: = true, but only the ekf can be smoothed; take --filter ekf, or leave it out");
   if (uses("beacons") && robot.beacons.beacons.empty())
     throw ConfigError("--sensors beacons: the configuration names no beacons; list them under beacons.beacons");
 }

@@ -17,6 +17,7 @@ namespace sidestep {
 /// All that a YAML for sidestep-localize may hold: the robot, its sensors, its filter.
 struct LocalizeConfig {
   std::string filter = "ekf";
+  bool smooth = false;
   int seed = 1;
   std::vector<std::string> sensors;  // empty: whatever the log has of odometry, imu, gps, and beacons if known
   LocalizerParams robot;

@@ -54,6 +54,12 @@ const char* word(Correction::Reason reason) {
   return "";
 }
 
+bool PoseFilter::smoothBack(const std::vector<double>&, const MotionStep&, const std::vector<double>&,
+                            std::vector<double>&) const {
+  return false;
+}
+void PoseFilter::smoothReset(const std::vector<double>&, double, std::vector<double>&) const {}
+
 void EkfParams::visit(ParamVisitor& v) {
   v.flag("gate", gate, "refuse measurements whose innovation is outside the chi-square gate");
   v.number("gate_probability", gate_probability, {0.5, 0.999999999}, "", "share of good measurements the gate lets in");
@@ -92,53 +98,104 @@ void Ekf<N>::start(const PoseBelief& belief) {
 }
 
 template <int N>
-void Ekf<N>::predict(const MotionStep& motion) {
-  if (motion.still || !(motion.dt_s >= 0)) return;
+typename Ekf<N>::Transition Ekf<N>::transition(const State& x, const MotionStep& motion) const {
   const bool wheels_turn = !motion.turn_from_gyro;
   double ds = motion.distance_m, turn = motion.turn_rad;
   if constexpr (N > 4) {
-    ds *= 1 + x_(kScale);
-    turn += wheels_turn ? x_(kTurnScale) * motion.turn_rad + x_(kPull) * motion.distance_m : -x_(kBias) * motion.dt_s;
+    ds *= 1 + x(kScale);
+    turn += wheels_turn ? x(kTurnScale) * motion.turn_rad + x(kPull) * motion.distance_m : -x(kBias) * motion.dt_s;
   }
-  const double beta = x_(2) + 0.5 * turn, c = std::cos(beta), s = std::sin(beta);
-  State x = x_;
-  x(0) += ds * c;
-  x(1) += ds * s;
-  x(2) = mrpt::math::wrapToPi(x(2) + turn);
-
-  // (3.9): the rows of the pose, by all of the state. What is calibrated stays as it is.
-  Eigen::Matrix<double, 3, N> F = Eigen::Matrix<double, 3, N>::Identity();
-  F(0, 2) = -ds * s;
-  F(1, 2) = ds * c;
-  const Eigen::Vector3d by_turn(-0.5 * ds * s, 0.5 * ds * c, 1);
+  const double beta = x(2) + 0.5 * turn, c = std::cos(beta), s = std::sin(beta);
+  Transition t{x, Eigen::Matrix<double, 3, N>::Identity(), {c, s, 0}, {-0.5 * ds * s, 0.5 * ds * c, 1}};
+  t.x(0) += ds * c;
+  t.x(1) += ds * s;
+  t.x(2) = mrpt::math::wrapToPi(x(2) + turn);
+  t.F(0, 2) = -ds * s;  // (3.9)
+  t.F(1, 2) = ds * c;
   if constexpr (N > 4) {
-    F.col(kScale) << motion.distance_m * c, motion.distance_m * s, 0;
+    t.F.col(kScale) = motion.distance_m * t.by_distance;
     if (wheels_turn) {
-      F.col(kTurnScale) = motion.turn_rad * by_turn;
-      F.col(kPull) = motion.distance_m * by_turn;
+      t.F.col(kTurnScale) = motion.turn_rad * t.by_turn;
+      t.F.col(kPull) = motion.distance_m * t.by_turn;
     } else {
-      F.col(kBias) = -motion.dt_s * by_turn;
+      t.F.col(kBias) = -motion.dt_s * t.by_turn;
     }
   }
-  const Eigen::Matrix<double, 3, N> FP = F * P_;
+  return t;
+}
+
+template <int N>
+void Ekf<N>::predict(const MotionStep& motion) {
+  if (motion.still || !(motion.dt_s >= 0)) return;
+  const Transition t = transition(x_, motion);
+  const Eigen::Matrix<double, 3, N> FP = t.F * P_;
   Covariance P = P_;
-  P.template topLeftCorner<3, 3>() = FP * F.transpose();
+  P.template topLeftCorner<3, 3>() = FP * t.F.transpose();
   if constexpr (N > 3) {
     P.template topRightCorner<3, N - 3>() = FP.template rightCols<N - 3>();
     P.template bottomLeftCorner<N - 3, 3>() = FP.template rightCols<N - 3>().transpose();
   }
-  // (3.8), by distance and turn instead of v and w.
-  const Eigen::Vector3d by_distance(c, s, 0);
-  P.template topLeftCorner<3, 3>() +=
-      motion.distance_var * by_distance * by_distance.transpose() + motion.turn_var * by_turn * by_turn.transpose();
+  P.template topLeftCorner<3, 3>() += motion.distance_var * t.by_distance * t.by_distance.transpose() +
+                                      motion.turn_var * t.by_turn * t.by_turn.transpose();
   if constexpr (N > 3) P(kOffset, kOffset) += params_.heading_offset_walk * params_.heading_offset_walk * motion.dt_s;
   if constexpr (N > 4) {
     P(kBias, kBias) += params_.yaw_rate_bias_walk * params_.yaw_rate_bias_walk * motion.dt_s;
     P(kScale, kScale) += params_.wheel_scale_walk * params_.wheel_scale_walk * motion.dt_s;
   }
-  if (!x.allFinite() || !P.allFinite()) return;
-  x_ = x;
+  if (!t.x.allFinite() || !P.allFinite()) return;
+  x_ = t.x;
   P_ = P;
+}
+
+namespace {
+
+/// P^-1 of a covariance that may have rows of zeros (what is known for sure), whose rows of the result are of no
+/// matter.
+template <int N>
+Eigen::Matrix<double, N, N> solvedRight(const Eigen::Matrix<double, N, N>& A, const Eigen::Matrix<double, N, N>& P) {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  const Vector scale = P.diagonal().unaryExpr([](double v) { return v > 0 ? 1 / std::sqrt(v) : 0; });
+  Eigen::Matrix<double, N, N> R = scale.asDiagonal() * P * scale.asDiagonal();
+  R.diagonal() += Vector::Constant(1e-12) + scale.unaryExpr([](double v) { return v > 0 ? 0.0 : 1.0; });
+  const Eigen::Matrix<double, N, N> B = (A * scale.asDiagonal()).transpose();
+  return R.ldlt().solve(B).transpose() * scale.asDiagonal();
+}
+
+}  // namespace
+
+template <int N>
+bool Ekf<N>::smoothBack(const std::vector<double>& before, const MotionStep& motion, const std::vector<double>& after,
+                        std::vector<double>& smoothed) const {
+  if (motion.still || !(motion.dt_s >= 0)) return true;
+  const Eigen::Map<const State> x(before.data()), x_after(after.data());
+  const Eigen::Map<const Covariance> P(before.data() + N), P_after(after.data() + N);
+  Eigen::Map<State> x_smooth(smoothed.data());
+  Eigen::Map<Covariance> P_smooth(smoothed.data() + N);
+  Covariance cross = P;  // P F'
+  cross.template leftCols<3>() = P * transition(x, motion).F.transpose();
+  const Covariance C = solvedRight<N>(cross, P_after);
+  State ahead = x_smooth - x_after;
+  ahead(2) = mrpt::math::wrapToPi(ahead(2));
+  State x_new = x + C * ahead;
+  x_new(2) = mrpt::math::wrapToPi(x_new(2));
+  const Covariance P_new = P + C * (P_smooth - P_after) * C.transpose();
+  if (!x_new.allFinite() || !P_new.allFinite()) return false;
+  x_smooth = x_new;
+  P_smooth = 0.5 * (P_new + P_new.transpose());
+  return true;
+}
+
+template <int N>
+void Ekf<N>::smoothReset(const std::vector<double>& before, double opened, std::vector<double>& smoothed) const {
+  const Eigen::Map<const State> x(before.data());
+  const Eigen::Map<const Covariance> P(before.data() + N);
+  Eigen::Map<State> x_smooth(smoothed.data());
+  Eigen::Map<Covariance> P_smooth(smoothed.data() + N);
+  State ahead = x_smooth - x;
+  ahead(2) = mrpt::math::wrapToPi(ahead(2));
+  x_smooth = x + ahead / opened;
+  x_smooth(2) = mrpt::math::wrapToPi(x_smooth(2));
+  P_smooth = (P + (P_smooth - opened * P) / (opened * opened)).eval();
 }
 
 template <int N>

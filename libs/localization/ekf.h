@@ -47,10 +47,21 @@ class Ekf final : public PoseFilter {
   PoseBelief estimate() const override;
   void save(std::vector<double>& out) const override;
   void restore(const std::vector<double>& state) override;
+  bool smoothBack(const std::vector<double>& before, const MotionStep& motion, const std::vector<double>& after,
+                  std::vector<double>& smoothed) const override;
+  void smoothReset(const std::vector<double>& before, double opened, std::vector<double>& smoothed) const override;
 
  private:
   using State = Eigen::Matrix<double, N, 1>;
   using Covariance = Eigen::Matrix<double, N, N>;
+  /// The state after a motion, and its derivatives: by the state (the pose's rows; the others stay), (3.8) by distance
+  /// and by turn instead of v and w.
+  struct Transition {
+    State x;
+    Eigen::Matrix<double, 3, N> F;
+    Eigen::Vector3d by_distance, by_turn;
+  };
+  Transition transition(const State& x, const MotionStep& motion) const;
   template <int M>
   Correction update(const Measurement& m, const Eigen::Matrix<double, M, 1>& nu, const Eigen::Matrix<double, M, N>& H);
   template <int M>

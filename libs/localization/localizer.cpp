@@ -189,7 +189,8 @@ void Localizer::place(const Measurement& m) {
 }
 
 void Localizer::insertLate(const Measurement& m) {
-  if (m.time_s < base_time_s_) return refuse(m.stream, m.time_s < now_s_ - params_.late_window_s ? "too_late" : "before_start");
+  if (m.time_s < base_time_s_)
+    return refuse(m.stream, m.time_s < now_s_ - params_.late_window_s ? "too_late" : "before_start");
   size_t i = history_.size();
   while (i > 0 && history_[i - 1].time_s > m.time_s) --i;
   Event e;
@@ -251,10 +252,13 @@ void Localizer::append(Event&& event) {
 }
 
 void Localizer::apply(Event& event) {
-  if (event.is_motion)
+  if (event.is_motion) {
     filter_->predict(event.motion);
-  else
-    count(event, filter_->correct(event.measurement));
+  } else {
+    const Correction c = filter_->correct(event.measurement);
+    event.opened = c.reason == Correction::Reason::kReset ? c.nis / c.dof : 1;
+    count(event, c);
+  }
   filter_->save(event.state_after);
 }
 
@@ -306,11 +310,29 @@ void Localizer::giveOut() {
 
 void Localizer::trimHistory() {
   while (history_.size() > 1 && history_.front().time_s < now_s_ - params_.late_window_s) {
+    tell(history_.front());
     base_time_s_ = history_.front().time_s;
     std::swap(base_state_, history_.front().state_after);
     spare_states_.push_back(std::move(history_.front().state_after));
     history_.pop_front();
   }
+}
+
+void Localizer::tell(const Event& e) {
+  if (!smoother_) return;
+  if (e.is_motion)
+    smoother_->motion(e.time_s, e.motion, e.state_after);
+  else
+    smoother_->correction(e.time_s, e.opened, e.state_after);
+}
+
+void Localizer::smooth() {
+  std::vector<double> times_s;
+  for (const auto& e : history_) tell(e);
+  for (const auto& e : ready_) times_s.push_back(e.time_s);
+  const auto beliefs = smoother_->beliefs(*filter_, times_s);
+  for (size_t i = 0; i < ready_.size(); ++i) ready_[i].belief = beliefs[i];
+  smoother_.reset();
 }
 
 // ---- the start ----
@@ -325,6 +347,7 @@ void Localizer::start(const StartBelief& s) {
   filter_->start(s.belief);
   now_s_ = base_time_s_ = s.time_s;
   filter_->save(base_state_);
+  if (smoother_) smoother_->start(now_s_, base_state_);
   odometry_pose_ = s.belief.mean;
   const bool with_odometry = odometry_count_ > 0 && first_odometry_s_ == now_s_;
   owe(with_odometry ? std::optional<uint64_t>(0) : std::nullopt);
@@ -352,11 +375,12 @@ void Localizer::finish() {
     owe(std::nullopt);
   }
   giveOut();
+  if (smoother_) smooth();
 }
 
 std::vector<Estimate> Localizer::takeEstimates() {
   std::vector<Estimate> out;
-  out.swap(ready_);
+  if (!smoother_) out.swap(ready_);
   return out;
 }
 

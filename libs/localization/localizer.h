@@ -14,6 +14,7 @@
 #include "localization/motion_source.h"
 #include "localization/pose_filter.h"
 #include "localization/sensor_models.h"
+#include "localization/smoother.h"
 #include "localization/start_alignment.h"
 
 namespace sidestep {
@@ -37,8 +38,8 @@ struct LocalizerParams {
 /// A pose at one instant, as told to the user.
 struct Estimate {
   double time_s = 0;
-  PoseBelief belief;                  ///< in the map frame
-  mrpt::math::TPose2D odometry;       ///< odometry alone, from the same start [m, rad]
+  PoseBelief belief;                       ///< in the map frame
+  mrpt::math::TPose2D odometry;            ///< odometry alone, from the same start [m, rad]
   std::optional<uint64_t> odometry_index;  ///< which odometry reading (0, 1, ...) this belongs to; none while coasting
 };
 
@@ -54,9 +55,9 @@ struct SensorUse {
 
 /// What the sensors in use can tell of the start.
 struct Expectation {
-  bool positions = false;       ///< fixes will come: wait for them
-  bool heading = false;         ///< so may the IMU's heading
-  double heading_offset_sd = 0; ///< how well that is known as the robot's [rad]
+  bool positions = false;        ///< fixes will come: wait for them
+  bool heading = false;          ///< so may the IMU's heading
+  double heading_offset_sd = 0;  ///< how well that is known as the robot's [rad]
 };
 
 /// Feeds a filter from a robot's sensors: motion from odometry (and gyro), measurements at their own times.
@@ -82,6 +83,9 @@ class Localizer {
   void beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o);
   /// No more observations come: what waits is processed.
   void finish();
+  /// From now on estimates are held until `finish`, which smooths them by the whole log (Smoother: memory grows with it);
+  /// `finish` throws Error if the filter has no smoother. To be called before the first observation.
+  void smoothAtEnd() { smoother_.emplace(); }
 
   /// Estimates that became ready since the last call, in time order.
   std::vector<Estimate> takeEstimates();
@@ -97,6 +101,7 @@ class Localizer {
     MotionStep motion;
     Measurement measurement;
     bool counted = false;
+    double opened = 1;  ///< by how much the correction opened the covariance
     std::vector<double> state_after;
   };
   void addHeading(int stream, double time_s, double heading_rad);
@@ -118,6 +123,8 @@ class Localizer {
   void tryStart(bool last_chance);
   void start(const StartBelief& s);
   void trimHistory();
+  void tell(const Event& event);
+  void smooth();
   SensorUse& use(int stream) { return sensors_[static_cast<size_t>(stream)]; }
 
   LocalizerParams params_;
@@ -134,10 +141,11 @@ class Localizer {
     MotionSource::Step step;
     uint64_t odometry_index;
   };
-  std::deque<Waiting> waiting_;             // motion before the start is known
-  std::vector<double> base_state_;          // state before history_.front()
+  std::deque<Waiting> waiting_;     // motion before the start is known
+  std::vector<double> base_state_;  // state before history_.front()
   std::vector<std::vector<double>> spare_states_;
   double base_time_s_ = 0, now_s_ = 0, last_heading_s_ = 0;
+  std::optional<Smoother> smoother_;
   MotionStep last_motion_;
   mrpt::math::TPose2D odometry_pose_;
   uint64_t odometry_count_ = 0;

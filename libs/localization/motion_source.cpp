@@ -20,8 +20,8 @@ void MotionSource::addYawRate(double time_s, double rate) {
 
 std::optional<double> MotionSource::turn(double from_s, double to_s) const {
   const double hold = imu_.yaw_rate == "on" ? 1e9 : imu_.max_yaw_rate_period_s;
-  auto next = std::upper_bound(rates_.begin(), rates_.end(), from_s,
-                               [](double t, const Sample& s) { return t < s.time_s; });
+  auto next =
+      std::upper_bound(rates_.begin(), rates_.end(), from_s, [](double t, const Sample& s) { return t < s.time_s; });
   double t = from_s, sum = 0;
   if (next == rates_.begin()) {
     if (next == rates_.end() || next->time_s - from_s > hold) return std::nullopt;

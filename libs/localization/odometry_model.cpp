@@ -13,9 +13,7 @@ namespace sidestep {
 namespace {
 
 /// Arc and turn as a displacement (2.1), the chord at half the turn.
-mrpt::math::TPose2D arc(double ds, double turn) {
-  return {ds * std::cos(0.5 * turn), ds * std::sin(0.5 * turn), turn};
-}
+mrpt::math::TPose2D arc(double ds, double turn) { return {ds * std::cos(0.5 * turn), ds * std::sin(0.5 * turn), turn}; }
 
 }  // namespace
 
@@ -40,8 +38,13 @@ void OdometryParams::check() const {
 OdometryModel::OdometryModel(const OdometryParams& params) : params_(params) { params_.check(); }
 
 OdometryModel::Reading OdometryModel::read(double time_s, const mrpt::obs::CObservationOdometry& o) {
-  return {time_s,     o.odometry.asTPose(), o.hasVelocities, o.hasEncodersInfo, o.velocityLocal,
-          static_cast<double>(o.encoderLeftTicks), static_cast<double>(o.encoderRightTicks)};
+  return {time_s,
+          o.odometry.asTPose(),
+          o.hasVelocities,
+          o.hasEncodersInfo,
+          o.velocityLocal,
+          static_cast<double>(o.encoderLeftTicks),
+          static_cast<double>(o.encoderRightTicks)};
 }
 
 OdometryModel::Source OdometryModel::pickSource(const Reading& now) const {

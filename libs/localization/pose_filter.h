@@ -16,8 +16,8 @@ namespace sidestep {
 struct Correction {
   enum class Reason { kAccepted, kReset, kGated, kNotFinite, kTooLate, kNotObservable };
   Reason reason = Reason::kAccepted;
-  double nis = 0;   ///< normalized innovation squared, against the covariance before the correction
-  int dof = 0;      ///< its degrees of freedom
+  double nis = 0;  ///< normalized innovation squared, against the covariance before the correction
+  int dof = 0;     ///< its degrees of freedom
   bool accepted() const { return reason == Reason::kAccepted || reason == Reason::kReset; }
 };
 
@@ -46,6 +46,15 @@ class PoseFilter {
   /// State into `out`, which keeps its memory between calls.
   virtual void save(std::vector<double>& out) const = 0;
   virtual void restore(const std::vector<double>& state) = 0;
+
+  /// One step back of the Rauch-Tung-Striebel smoother: `before` and `after` are what `save` gave around
+  /// `predict(motion)`, `smoothed` the state at its end given the whole log, which becomes the state at its beginning.
+  /// @return false if this filter has no such step, or its numbers are not finite.
+  virtual bool smoothBack(const std::vector<double>& before, const MotionStep& motion, const std::vector<double>& after,
+                          std::vector<double>& smoothed) const;
+  /// The same where a correction opened the covariance `opened` times (Correction::Reason::kReset); `before` is the
+  /// state before that.
+  virtual void smoothReset(const std::vector<double>& before, double opened, std::vector<double>& smoothed) const;
 };
 
 }  // namespace sidestep

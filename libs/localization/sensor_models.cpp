@@ -15,8 +15,9 @@ namespace sidestep {
 void GpsParams::visit(ParamVisitor& v) {
   v.number("sd_m", sd_m, {0.001, 1000}, "m", "sd of a fix in each of x and y (3.17)");
   v.number("use_hdop", use_hdop, {0, 100}, "m", "if above 0, sd is this times the fix's HDOP, where it has one");
-  v.number("correlation_s", correlation_s, {0, 3600}, "s",
-           "time over which errors of fixes stay alike; their noise is raised so that repeated fixes do not count twice");
+  v.number(
+      "correlation_s", correlation_s, {0, 3600}, "s",
+      "time over which errors of fixes stay alike; their noise is raised so that repeated fixes do not count twice");
   v.number("delay_s", delay_s, {-10, 10}, "s", "how late fixes are stamped; they are put back where they belong");
   v.flag("lever_from_log", lever_from_log, "take the antenna's place on the robot from the log");
   v.number("lever_x_m", lever_x_m, {-50, 50}, "m", "else: antenna ahead of the base");
@@ -28,7 +29,8 @@ void GpsParams::visit(ParamVisitor& v) {
 }
 
 void ImuParams::visit(ParamVisitor& v) {
-  v.choice("heading", heading, {"auto", "on", "off"}, "use the IMU's yaw as heading (3.12); auto: where the log has it");
+  v.choice("heading", heading, {"auto", "on", "off"},
+           "use the IMU's yaw as heading (3.12); auto: where the log has it");
   v.choice("yaw_rate", yaw_rate, {"auto", "on", "off"},
            "let the gyro tell the turns instead of the wheels; auto: if sampled often enough");
   v.angle("heading_sd_deg", heading_sd, {0.01, 180}, "sd of the heading (3.17)");
