@@ -31,8 +31,10 @@ Study studyFor(const EvaluateOptions& o, bool load_data = true) {
     throw ConfigError("no STUDY given; for example sidestep-evaluate share/studies/table-3.1-3.2.yaml");
   Study study = Study::read(o.study);
   if (o.seed) study.seed = *o.seed;
+  const bool fewer = o.runs && *o.runs < study.runs;
   if (o.runs) study.runs = *o.runs;
   study.keepScenarios(o.scenarios);
+  if (fewer) study.dropExpectations();
   study.prepare(load_data);
   return study;
 }

@@ -122,15 +122,16 @@ class YamlReader final : public ParamVisitor {
     if (!n) return;
     if (!n->IsMap() && !n->IsNull()) fail(*n, prefix_ + key, "is not a map of keys");
     // Counted from the first key: the mark of a map with an anchor is that of the anchor.
-    const int line = n->size() > 0 ? n->begin()->first.Mark().line : 0;
+    yaml.clear();
+    if (n->size() == 0) return;
+    const int line = n->begin()->first.Mark().line;
     yaml = std::string(static_cast<size_t>(std::max(0, line)), '\n') + YAML::Dump(*n) + "\n";
   }
 
   /// All keys that were not asked for are unknown.
   void finish() const {
     for (const auto& [key, node] : marks_)
-      if (!known_.count(key))
-        fail(node, prefix_ + key, "is no known key" + hint(key, {known_.begin(), known_.end()}));
+      if (!known_.count(key)) fail(node, prefix_ + key, "is no known key" + hint(key, {known_.begin(), known_.end()}));
   }
 
  private:
@@ -150,9 +151,10 @@ class YamlReader final : public ParamVisitor {
       fail(n, name, "= " + shown(n) + " is not a number");
     if (!std::isfinite(value)) fail(n, name, "= " + s + " is not finite");
     if (value < r.low || value > r.high) {
-      std::string allowed = std::isfinite(r.low) && std::isfinite(r.high)
-                                ? shortestNumber(r.low) + " .. " + shortestNumber(r.high)
-                                : (std::isfinite(r.low) ? ">= " + shortestNumber(r.low) : "<= " + shortestNumber(r.high));
+      std::string allowed =
+          std::isfinite(r.low) && std::isfinite(r.high)
+              ? shortestNumber(r.low) + " .. " + shortestNumber(r.high)
+              : (std::isfinite(r.low) ? ">= " + shortestNumber(r.low) : "<= " + shortestNumber(r.high));
       fail(n, name, "= " + s + (unit.empty() ? "" : " " + unit) + ", allowed " + allowed);
     }
     return value;

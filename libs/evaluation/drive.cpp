@@ -155,8 +155,9 @@ std::string resolvedPath(const std::string& path, const std::string& study_file)
     const std::string name = out.substr(from + 2, to - from - 2);
     const char* value = std::getenv(name.c_str());
     if (value == nullptr || *value == '\0')
-      throw DatasetError::missing(study_file + ": " + path + ": the environment variable " + name +
-                                  " is not set; set it to the folder of the data, or leave these scenarios out with --scenarios");
+      throw DatasetError::missing(
+          study_file + ": " + path + ": the environment variable " + name +
+          " is not set; set it to the folder of the data, or leave these scenarios out with --scenarios");
     out.replace(from, to + 1 - from, value);
   }
   const std::filesystem::path file(out);

@@ -31,6 +31,8 @@ class Study {
   /// Keeps only the scenarios that match one of the patterns (`*` for any characters).
   /// @throws ConfigError for a pattern that matches none.
   void keepScenarios(const std::vector<std::string>& patterns);
+  /// For fewer runs than the study's own, whose expectations say nothing of them.
+  void dropExpectations() { parsed_expect_.clear(); }
   /// Loads what the runs need. @throws see StudyRunner::prepare
   void prepare(bool load_data = true);
 

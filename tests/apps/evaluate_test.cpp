@@ -57,11 +57,11 @@ TEST(Evaluate, LeavesRunsSummaryReportAndFigures) {
   const auto runs = linesOf(s.file("out/runs.csv")), summary = linesOf(s.file("out/summary.csv"));
   EXPECT_EQ(runs.size(), 1u + 3 * 3 * 4);  // short, roof@1, roof@2; three algorithms; four runs
   EXPECT_TRUE(runs[0].starts_with("scenario,algorithm,run,status,mean_error_m,")) << runs[0];
-  EXPECT_EQ(summary[0],
-            "scenario,algorithm,metric,n,mean,sd,ci_low,ci_high,reference,baseline,difference,p_value");
+  EXPECT_EQ(summary[0], "scenario,algorithm,metric,n,mean,sd,ci_low,ci_high,reference,baseline,difference,p_value");
   EXPECT_TRUE(summary[1].starts_with("short,enc,mean_error_m,4,")) << summary[1];
   const std::string report = s.file("out/report.html");
-  for (const char* text : {"A &lt;small&gt; study", "data:image/png;base64,", "sidestep-evaluate study.yaml -o out", "published"})
+  for (const char* text :
+       {"A &lt;small&gt; study", "data:image/png;base64,", "sidestep-evaluate study.yaml -o out", "published"})
     EXPECT_NE(report.find(text), std::string::npos) << text;
   for (const char* text : {"src=\"http", "<link", "<script"}) EXPECT_EQ(report.find(text), std::string::npos) << text;
   for (const char* name : {"mean_error_m.png", "mean_error_m-roof.png", "run-short-enc-gps.png", "metrics.json",
@@ -87,7 +87,8 @@ TEST(Evaluate, GoesOnAfterAKillToTheSameBytes) {
   ASSERT_EQ(s.run("-o whole").exit_code, 0);
   ASSERT_EQ(s.run("-o cut").exit_code, 0);
   const auto rows = linesOf(s.file("whole/runs.csv"));
-  writeFile(s.folder / "cut/runs.csv", rows[0] + "\n" + rows[20] + "\n" + rows[3] + "\n" + rows[7].substr(0, rows[7].size() - 9));
+  writeFile(s.folder / "cut/runs.csv",
+            rows[0] + "\n" + rows[20] + "\n" + rows[3] + "\n" + rows[7].substr(0, rows[7].size() - 9));
   std::filesystem::remove(s.folder / "cut/summary.csv");
   const auto run = s.run("-o cut --resume");
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -118,9 +119,11 @@ TEST(Evaluate, AMissedExpectationIsSixAndTheLineThatSaysWhich) {
   const StudyFolder s(replaced(kStudy, "enc+gps mean_error_m <= 100", "enc mean_error_m >= 1000"));
   const auto run = s.run("-o out");
   EXPECT_EQ(run.exit_code, 6);
-  EXPECT_TRUE(run.err.starts_with("sidestep-evaluate: missed: * enc mean_error_m >= 1000: short enc mean_error_m.mean is "))
+  EXPECT_TRUE(
+      run.err.starts_with("sidestep-evaluate: missed: * enc mean_error_m >= 1000: short enc mean_error_m.mean is "))
       << run.err;
   EXPECT_NE(s.file("out/report.html").find("missed"), std::string::npos);
+  EXPECT_EQ(s.run("-o fewer --runs 2").exit_code, 0);  // the study expects it of its own number of runs
 }
 
 TEST(Evaluate, AnInterruptSavesWhatIsFinished) {
@@ -162,7 +165,8 @@ TEST(Evaluate, WhatIsWrongInAStudyIsNamed) {
   EXPECT_NE(errorOf("baseline: enc", "baseline: end").find("did you mean 'enc'?"), std::string::npos);
   EXPECT_NE(errorOf("metrics: [mean_error_m]", "metrics: [mean_eror_m]").find("did you mean 'mean_error_m'?"),
             std::string::npos);
-  EXPECT_NE(errorOf("kind: localization", "kind: localisation").find("did you mean 'localization'?"), std::string::npos);
+  EXPECT_NE(errorOf("kind: localization", "kind: localisation").find("did you mean 'localization'?"),
+            std::string::npos);
   EXPECT_NE(errorOf("axis: outage_s", "axis: outage").find("did you mean 'outage_s'?"), std::string::npos);
   EXPECT_NE(errorOf("duration_s: 3", "duration: 3").find("study.yaml:10: trajectory.duration is no known key"),
             std::string::npos);

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <random>
 
 #include "core/errors.h"
@@ -210,8 +211,8 @@ TEST(Params, WritesEachKeyWithMeaningUnitAndRange) {
 TEST(Params, ListsEachKeyInTheMarkdownTable) {
   Sample s;
   const std::string table = markdownTable(s.fields());
-  for (const char* key : {"speed_m_s", "yaw_deg", "anything", "count", "enabled", "mode", "label", "labels", "corners",
-                          "inner.sd_m"})
+  for (const char* key :
+       {"speed_m_s", "yaw_deg", "anything", "count", "enabled", "mode", "label", "labels", "corners", "inner.sd_m"})
     EXPECT_NE(table.find("| `" + std::string(key) + "` |"), std::string::npos) << key;
   EXPECT_NE(table.find("| `speed_m_s` | 1.5 | m/s | 0 .. 10 | how fast |\n"), std::string::npos) << table;
 }
@@ -232,6 +233,51 @@ TEST(ShortestNumber, ReadsBackToTheSameBits) {
     const double value = std::ldexp(unit(random), i - 500);
     EXPECT_EQ(std::strtod(shortestNumber(value).c_str(), nullptr), value);
   }
+}
+
+/// Names that the file's author chooses, each with a field and an overlay.
+struct Named {
+  std::vector<std::string> names;
+  std::map<std::string, double> values;
+  std::map<std::string, std::string> overlays;
+
+  Visit fields() {
+    return [this](ParamVisitor& v) {
+      v.groups("things", names, "by name", [this](const std::string& name, ParamVisitor& w) {
+        w.number("size_m", values[name], {0, 10}, "m", "how large");
+        w.overlay("set", overlays[name], "what is changed");
+      });
+    };
+  }
+};
+
+TEST(Params, GroupsByNameKeepTheFilesOrderAndReadBack) {
+  Named a, b;
+  readYamlText("things:\n  zebra: {size_m: 2}\n  ant: {set: {inner: {sd_m: 0.5}, count: 2}}\n", "f.yaml", a.fields());
+  EXPECT_EQ(a.names, (std::vector<std::string>{"zebra", "ant"}));
+  EXPECT_EQ(a.values["zebra"], 2);
+  const std::string text = writeYaml(a.fields());
+  readYamlText(text, "g.yaml", b.fields());
+  EXPECT_EQ(writeYaml(b.fields()), text);
+  EXPECT_EQ(b.overlays["zebra"], "");
+}
+
+TEST(Params, AnErrorInAGroupOrAnOverlayNamesItsLine) {
+  const auto errorIn = [](const std::string& text) -> std::string {
+    Named n;
+    Sample s;
+    try {
+      readYamlText(text, "f.yaml", n.fields());
+      for (const auto& [name, yaml] : n.overlays) readYamlText(yaml, "f.yaml", s.fields());
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(errorIn("things:\n  ant:\n    size_m: 11\n"), "f.yaml:3: things.ant.size_m = 11 m, allowed 0 .. 10");
+  EXPECT_EQ(errorIn("things:\n  ant:\n    set:\n      enabled: true\n      count: 10\n"),
+            "f.yaml:5: count = 10, allowed 1 .. 9");
+  EXPECT_EQ(errorIn("things:\n  ant: {set: 3}\n"), "f.yaml:2: things.ant.set is not a map of keys");
 }
 
 }  // namespace

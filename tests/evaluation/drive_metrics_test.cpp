@@ -132,9 +132,10 @@ TEST(Drive, APathMayNameTheEnvironment) {
     FAIL();
   } catch (const DatasetError& e) {
     EXPECT_EQ(e.code(), ExitCode::kInputMissing);
-    EXPECT_EQ(std::string(e.what()),
-              "s.yaml: ${SIDESTEP_TEST_FOLDER}/b.rawlog: the environment variable SIDESTEP_TEST_FOLDER is not set; set it "
-              "to the folder of the data, or leave these scenarios out with --scenarios");
+    EXPECT_EQ(
+        std::string(e.what()),
+        "s.yaml: ${SIDESTEP_TEST_FOLDER}/b.rawlog: the environment variable SIDESTEP_TEST_FOLDER is not set; set it "
+        "to the folder of the data, or leave these scenarios out with --scenarios");
   }
 }
 

@@ -19,7 +19,9 @@ TEST(StudyReport, Base64IsThatOfTheRfc) {
   EXPECT_EQ(base64(std::string("\xff\x00\xfe", 3)), "/wD+");
 }
 
-TEST(StudyReport, TextDoesNotReadAsHtml) { EXPECT_EQ(htmlEscaped("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;"); }
+TEST(StudyReport, TextDoesNotReadAsHtml) {
+  EXPECT_EQ(htmlEscaped("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
+}
 
 }  // namespace
 }  // namespace sidestep

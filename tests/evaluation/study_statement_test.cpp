@@ -52,9 +52,10 @@ TEST(StudyStatement, AStarStandsForAnyCharacters) {
 }
 
 TEST(StudyStatement, AnErrorSaysWhatIsWrongAndHowToWriteIt) {
-  EXPECT_EQ(errorOf("a b c <="),
-            "study.yaml: expect 'a b c <=': is not five words; write it as SCENARIO ALGORITHM METRIC <= NUMBER (or =, >=, "
-            "<, >)");
+  EXPECT_EQ(
+      errorOf("a b c <="),
+      "study.yaml: expect 'a b c <=': is not five words; write it as SCENARIO ALGORITHM METRIC <= NUMBER (or =, >=, "
+      "<, >)");
   EXPECT_NE(errorOf("a b c =< 1").find("'=<' is no comparison"), std::string::npos);
   EXPECT_NE(errorOf("a b c <= one").find("'one' is not a number"), std::string::npos);
   EXPECT_NE(errorOf("a b c <= nan").find("'nan' is not a number"), std::string::npos);
