@@ -170,7 +170,8 @@ double DistanceField::lowestInSquare(size_t at, double u, double v, double du, d
 }
 
 /// Goes from square to square. The values at centres change by at most a cell's width a cell, so that from a point at a
-/// distance e of the centre with value d, nothing within d - bound - e - (a square's diagonal) can be below the bound.
+/// distance e of the centre with value d, nothing within d - bound - e - (a square's diagonal) can be below the bound;
+/// a cell more, as negative insides are measured from the other side.
 double DistanceField::lowestAlong(const GridPoint& a, const GridPoint& b, double at_most, bool stop_below) const {
   const double length = std::hypot(b.u - a.u, b.v - a.v);
   const double du = length > 0 ? (b.u - a.u) / length : 1, dv = length > 0 ? (b.v - a.v) / length : 0;
@@ -180,14 +181,14 @@ double DistanceField::lowestAlong(const GridPoint& a, const GridPoint& b, double
     const int i = std::clamp(static_cast<int>(u), 0, frame_.width),
               j = std::clamp(static_cast<int>(v), 0, frame_.height);
     const size_t at = static_cast<size_t>(j) * stride_ + static_cast<size_t>(i);
-    const double here = values_[at], skip = (here - lowest) * cells_per_m_ - 2 * kSquareDiagonal;
+    const double here = values_[at], skip = (here - lowest) * cells_per_m_ - 2 * kSquareDiagonal - 1;
     if (skip > 1) {
       t += skip;
     } else {
       const double to_u = du > 0 ? (i + 1 - u) / du : (du < 0 ? (i - u) / du : kInfinity);
       const double to_v = dv > 0 ? (j + 1 - v) / dv : (dv < 0 ? (j - v) / dv : kInfinity);
       const double inside = std::max(0.0, std::min({to_u, to_v, length - t}));
-      const float corner =
+      const double corner =
           std::min(std::min(values_[at], values_[at + 1]), std::min(values_[at + stride_], values_[at + stride_ + 1]));
       if (corner < lowest) lowest = std::min(lowest, lowestInSquare(at, u - i, v - j, du, dv, inside));
       if (stop_below && lowest < at_most) return lowest;
