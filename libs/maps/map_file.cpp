@@ -14,6 +14,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -156,6 +157,12 @@ GridMap readPlainImage(const std::string& file, double resolution_m) {
   return gridOfImage(readImage(file), header);
 }
 
+/// MRPT keeps lengths as floats; so many digits give the same one back.
+std::string shortFloat(float value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 bool endsWith(const std::string& file, std::initializer_list<const char*> endings) {
   return std::any_of(endings.begin(), endings.end(), [&](const char* e) { return file.ends_with(e); });
 }
@@ -196,9 +203,9 @@ void writeRosMap(const GridMap& map, const std::string& yaml_file) {
   writePgm(out, image.string());
   std::ofstream yaml(yaml_file, std::ios::binary);
   const auto& T = frame.T_map_grid;
-  yaml << "image: " << image.filename().string() << "\nresolution: " << shortestNumber(frame.resolution_m)
-       << "\norigin: [" << shortestNumber(T.x) << ", " << shortestNumber(T.y) << ", " << shortestNumber(T.phi)
-       << "]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\nmode: trinary\n";
+  yaml << "image: " << image.filename().string() << "\nresolution: " << shortFloat(map.grid->getResolution())
+       << "\norigin: [" << shortFloat(static_cast<float>(T.x)) << ", " << shortFloat(static_cast<float>(T.y)) << ", "
+       << shortestNumber(T.phi) << "]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\nmode: trinary\n";
   yaml.close();
   if (!yaml) throw DatasetError::missing(yaml_file + ": cannot be written; check folder and disk");
 }

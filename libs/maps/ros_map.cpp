@@ -18,6 +18,17 @@
 namespace sidestep {
 namespace {
 
+/// MRPT moves the corner of a grid to a whole number of cells; this one stays where the map says.
+class PlacedGrid final : public mrpt::maps::COccupancyGridMap2D {
+ public:
+  PlacedGrid(int width, int height, float resolution_m, float x, float y) {
+    const auto span = [&](int cells) { return resolution_m * static_cast<float>(cells); };
+    setSize(0, span(width), 0, span(height), resolution_m);
+    m_xMin = x, m_xMax = x + span(width);
+    m_yMin = y, m_yMax = y + span(height);
+  }
+};
+
 /// Reads keys of one file and complains by name.
 class Header {
  public:
@@ -124,14 +135,12 @@ RosMapHeader readRosMapHeader(const std::string& yaml_file) {
 }
 
 GridMap gridOfImage(const GreyImage& image, const RosMapHeader& header) {
-  using mrpt::maps::COccupancyGridMap2D;
   const bool turned = header.origin.phi != 0;
-  const auto r = static_cast<float>(header.resolution_m);
-  const auto x0 = static_cast<float>(turned ? 0 : header.origin.x),
-             y0 = static_cast<float>(turned ? 0 : header.origin.y);
-  GridMap map{std::make_shared<COccupancyGridMap2D>(), turned ? header.origin : mrpt::math::TPose2D()};
-  map.grid->setSize(x0, x0 + r * static_cast<float>(image.width), y0, y0 + r * static_cast<float>(image.height), r);
-  if (static_cast<int>(map.grid->getSizeX()) < image.width || static_cast<int>(map.grid->getSizeY()) < image.height)
+  const mrpt::math::TPose2D corner = turned ? mrpt::math::TPose2D() : header.origin;
+  GridMap map{std::make_shared<PlacedGrid>(image.width, image.height, static_cast<float>(header.resolution_m),
+                                           static_cast<float>(corner.x), static_cast<float>(corner.y)),
+              turned ? header.origin : mrpt::math::TPose2D()};
+  if (static_cast<int>(map.grid->getSizeX()) != image.width || static_cast<int>(map.grid->getSizeY()) != image.height)
     throw DatasetError::corrupt(header.image + ": " + std::to_string(image.width) + " x " +
                                 std::to_string(image.height) + " pixels do not fit a grid of this resolution");
   const auto occupied = occupancyOfGrey(header);
