@@ -36,8 +36,10 @@ void addPathCommand(CLI::App& app, Work& work) {
   c->add_flag("--no-picture", o->no_picture, "do not draw path.png");
   c->add_flag("--write-config", o->write_config, "print all parameters as commented YAML and exit");
   c->footer(
-      "Planners: astar, theta (any angle), dijkstra; of OMPL: rrtconnect, rrtstar, informed-rrtstar, bitstar, prmstar,\n"
-      "kpiece. Makes path.csv, path.tum, path.png, or for --pairs paths.csv; metrics.json, effective.yaml, command.txt.\n"
+      "Planners: astar, theta (any angle), dijkstra; of OMPL: rrtconnect, rrtstar, informed-rrtstar, bitstar, "
+      "prmstar,\n"
+      "kpiece. Makes path.csv, path.tum, path.png, or for --pairs paths.csv; metrics.json, effective.yaml, "
+      "command.txt.\n"
       "Example (a map that comes with the Debian package mrpt-common):\n"
       "  sidestep-plan path --map /usr/share/mrpt/datasets/2006-MalagaCampus.gridmap.gz \\\n"
       "    --start 108.44,3.24,0 --goal 72.92,-32.84,90 --planner theta --smooth -o out-path");

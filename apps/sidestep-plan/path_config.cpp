@@ -72,11 +72,13 @@ std::vector<PathPair> readPairsFile(const std::string& file) {
     const auto words = split(line);
     const auto value = [&](size_t column) {
       const auto v = column < words.size() ? toNumber(words[column]) : std::nullopt;
-      if (!v) throw DatasetError::corrupt(file + ":" + std::to_string(number) + ": column " + std::to_string(column + 1) +
-                                          " is no number");
+      if (!v)
+        throw DatasetError::corrupt(file + ":" + std::to_string(number) + ": column " + std::to_string(column + 1) +
+                                    " is no number");
       return *v;
     };
-    out.push_back({{value(columns.start_x), value(columns.start_y), 0}, {value(columns.goal_x), value(columns.goal_y), 0}});
+    out.push_back(
+        {{value(columns.start_x), value(columns.start_y), 0}, {value(columns.goal_x), value(columns.goal_y), 0}});
   }
   if (out.empty()) throw DatasetError::corrupt(file + ": holds no pairs");
   return out;
@@ -87,7 +89,8 @@ std::vector<PathPair> readPairsFile(const std::string& file) {
 void PathConfig::visit(ParamVisitor& v) {
   v.choice("planner", planner, globalPlanners(), "of the path");
   v.flag("smooth", smooth, "round the path off (not arcs)");
-  v.number("nearest_within_m", nearest_within_m, {0, 1000}, "m", "how far start and goal may be moved if that is asked for");
+  v.number("nearest_within_m", nearest_within_m, {0, 1000}, "m",
+           "how far start and goal may be moved if that is asked for");
   v.section("map", "what some map files do not say", [this](ParamVisitor& w) { map.visit(w); });
   v.section("obstacles", "which cells block", [this](ParamVisitor& w) { obstacles.visit(w); });
   v.section("field", "the distance field", [this](ParamVisitor& w) { field.visit(w); });

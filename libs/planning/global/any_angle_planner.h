@@ -8,9 +8,9 @@
 
 namespace sidestep {
 
-/// The planner "theta": paths at any angle, as Theta* (Nash, Daniel, Koenig & Felner 2007) finds them, by another way: A*
-/// with 16 neighbours, whose path is then pulled taut. It is never longer than A*'s of 8 neighbours, since those moves
-/// are among the 16 and pulling only shortens. doc/maps-and-paths.md compares it with Theta* itself.
+/// The planner "theta": paths at any angle, as Theta* (Nash, Daniel, Koenig & Felner 2007) finds them, by another way:
+/// A* with 16 neighbours, whose path is then pulled taut. It is never longer than A*'s of 8 neighbours, since those
+/// moves are among the 16 and pulling only shortens. doc/maps-and-paths.md compares it with Theta* itself.
 class AnyAnglePlanner final : public GlobalPlanner {
  public:
   /// @param params  `neighbours` is not looked at; with a clearance price the search looks for room, then pulling takes
