@@ -175,26 +175,35 @@ double DistanceField::lowestInSquare(size_t at, double u, double v, double du, d
 double DistanceField::lowestAlong(const GridPoint& a, const GridPoint& b, double at_most, bool stop_below) const {
   const double length = std::hypot(b.u - a.u, b.v - a.v);
   const double du = length > 0 ? (b.u - a.u) / length : 1, dv = length > 0 ? (b.v - a.v) / length : 0;
+  int i = 0, j = 0;
+  const auto enter = [&](double t) {
+    i = std::clamp(static_cast<int>(a.u + t * du), 0, frame_.width);
+    j = std::clamp(static_cast<int>(a.v + t * dv), 0, frame_.height);
+  };
   double lowest = at_most, t = 0;
-  do {
+  enter(t);
+  while (i >= 0 && j >= 0 && i <= frame_.width && j <= frame_.height) {
     const double u = a.u + t * du, v = a.v + t * dv;
-    const int i = std::clamp(static_cast<int>(u), 0, frame_.width),
-              j = std::clamp(static_cast<int>(v), 0, frame_.height);
     const size_t at = static_cast<size_t>(j) * stride_ + static_cast<size_t>(i);
     const double here = values_[at], skip = (here - lowest) * cells_per_m_ - 2 * kSquareDiagonal - 1;
     if (skip > 1) {
-      t += skip;
-    } else {
-      const double to_u = du > 0 ? (i + 1 - u) / du : (du < 0 ? (i - u) / du : kInfinity);
-      const double to_v = dv > 0 ? (j + 1 - v) / dv : (dv < 0 ? (j - v) / dv : kInfinity);
-      const double inside = std::max(0.0, std::min({to_u, to_v, length - t}));
-      const double corner =
-          std::min(std::min(values_[at], values_[at + 1]), std::min(values_[at + stride_], values_[at + stride_ + 1]));
-      if (corner < lowest) lowest = std::min(lowest, lowestInSquare(at, u - i, v - j, du, dv, inside));
-      if (stop_below && lowest < at_most) return lowest;
-      t += inside + 1e-9;
+      if ((t += skip) >= length) break;
+      enter(t);
+      continue;
     }
-  } while (t < length);
+    const double leaves_u = du > 0 ? (i + 1 - a.u) / du : (du < 0 ? (i - a.u) / du : kInfinity);
+    const double leaves_v = dv > 0 ? (j + 1 - a.v) / dv : (dv < 0 ? (j - a.v) / dv : kInfinity);
+    const double next = std::clamp(std::min(leaves_u, leaves_v), t, length);
+    const double corner =
+        std::min(std::min(values_[at], values_[at + 1]), std::min(values_[at + stride_], values_[at + stride_ + 1]));
+    if (corner < lowest) lowest = std::min(lowest, lowestInSquare(at, u - i, v - j, du, dv, next - t));
+    if ((stop_below && lowest < at_most) || next >= length) break;
+    t = next;
+    if (leaves_u <= leaves_v)
+      i += du > 0 ? 1 : -1;
+    else
+      j += dv > 0 ? 1 : -1;
+  }
   return lowest;
 }
 

@@ -157,6 +157,16 @@ TEST(DistanceField, AGridLineBesideAWallIsVisible) {
   EXPECT_FALSE(field.visible({5, 1}, {5, 8}, 0.1));
 }
 
+TEST(DistanceField, ALineThatIsAlmostOnAGridLineComesToItsEnd) {
+  const GridFrame turned{60, 60, 0.1, TPose2D(-3.3, 1.7, 2.1)};
+  const DistanceField field(turned, Cells(3600, 0));
+  for (int k = 2; k < 58; ++k) {  // rounding makes these lean by 1e-16 either way
+    EXPECT_TRUE(field.visible(turned.centre(3, k), turned.centre(57, k), 0.2));
+    EXPECT_TRUE(field.visible(turned.centre(k, 57), turned.centre(k, 3), 0.2));
+  }
+  EXPECT_NEAR(field.lowestAlong(turned.centre(3, 0), turned.centre(57, 0), 10), 0.1, 1e-6);
+}
+
 TEST(DistanceField, APolygonFitsExactlyIfNoBlockedCentreIsWithinTheMargin) {
   Random random(4);
   const std::vector<TPoint2D> shape = {{0.4, 0}, {0.1, 0.25}, {-0.3, 0.2}, {-0.1, 0}, {-0.3, -0.2}};  // not convex
