@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "maps/image_file.h"
 
+#include <zlib.h>
+
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -43,6 +45,19 @@ uint64_t pgmNumber(const std::string& b, size_t& at) {
   while (at < b.size() && b[at] >= '0' && b[at] <= '9' && out < kMostPixels * 10)
     out = 10 * out + static_cast<uint64_t>(b[at++] - '0');
   return out;
+}
+
+/// Whether all chunks of a png are there with their check sums: on damage libpng itself would print.
+bool isWholePng(const std::string& b) {
+  for (size_t at = 8; at + 12 <= b.size();) {
+    const size_t length = bigEndian(b, at);
+    if (length > b.size() - at - 12) return false;
+    const auto* type = reinterpret_cast<const Bytef*>(b.data() + at + 4);
+    if (crc32(0, type, static_cast<uInt>(length + 4)) != bigEndian(b, at + 8 + length)) return false;
+    if (b.compare(at + 4, 4, "IEND") == 0) return true;
+    at += length + 12;
+  }
+  return false;
 }
 
 Promise promiseOf(const std::string& b) {
@@ -116,6 +131,8 @@ GreyImage readImage(const std::string& file) {
   const std::string bytes = readBytes(file, "an image");
   checkPromise(file, bytes);
   cv::Mat image;
+  if (bytes.starts_with("\x89PNG") && !isWholePng(bytes))
+    throw DatasetError::corrupt(file + ": the png is cut short or damaged");
   try {
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
     image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);

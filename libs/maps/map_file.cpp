@@ -213,6 +213,11 @@ void writeRosMap(const GridMap& map, const std::string& yaml_file) {
 void writeGridmap(const GridMap& map, const std::string& file) {
   if (map.T_map_grid != mrpt::math::TPose2D())
     throw ConfigError(file + ": a .gridmap cannot hold a map that is turned; write a .yaml");
+  for (const float corner : {map.grid->getXMin(), map.grid->getYMin()}) {
+    const double cells = static_cast<double>(corner) / static_cast<double>(map.grid->getResolution());
+    if (std::abs(cells - std::round(cells)) > 1e-3)
+      throw ConfigError(file + ": a .gridmap cannot hold a map whose corner lies between cells; write a .yaml");
+  }
   mrpt::io::CMemoryStream stream;
   auto archive = mrpt::serialization::archiveFrom(stream);
   archive << *map.grid;

@@ -30,7 +30,8 @@ GridMap readMap(const std::string& file, const MapReadParams& params = {});
 void writeRosMap(const GridMap& map, const std::string& yaml_file);
 
 /// Writes MRPT's .gridmap, gzip if the name ends in .gz.
-/// @throws DatasetError if it does not reach the disk, ConfigError if the map is turned, which the format cannot say.
+/// @throws DatasetError if it does not reach the disk, ConfigError if the map is turned, or its
+///         corner is no whole number of cells from (0, 0): MRPT's reader cannot take either.
 void writeGridmap(const GridMap& map, const std::string& file);
 
 }  // namespace sidestep

@@ -28,6 +28,18 @@ std::vector<TPoint2D> subdivided(const std::vector<TPose2D>& poses, double step)
   return out;
 }
 
+/// Leaves out points that crowd, where the piece over them keeps the clearance.
+std::vector<TPoint2D> thinned(const std::vector<TPoint2D>& points, double step, const DistanceField& field,
+                              double clearance_m) {
+  std::vector<TPoint2D> out = {points.front()};
+  for (size_t i = 1; i + 1 < points.size(); ++i) {
+    const bool crowds = (points[i + 1] - out.back()).norm() < 1.5 * step;
+    if (!crowds || !field.visible(out.back(), points[i + 1], clearance_m)) out.push_back(points[i]);
+  }
+  out.push_back(points.back());
+  return out;
+}
+
 /// Points every `step` along the path, the end as well.
 std::vector<TPoint2D> sampled(const std::vector<TPose2D>& poses, double step) {
   std::vector<TPoint2D> out = {at(poses.front())};
@@ -68,7 +80,7 @@ void SmoothingParams::visit(ParamVisitor& v) {
 std::vector<TPose2D> smoothPath(const DistanceField& field, double clearance_m, const SmoothingParams& params,
                                 const std::vector<TPose2D>& poses) {
   if (poses.size() < 2) return poses;
-  auto points = subdivided(poses, params.step_m);
+  auto points = thinned(subdivided(poses, params.step_m), params.step_m, field, clearance_m);
   for (int round = 0; round < params.rounds; ++round)
     for (size_t i = 1; i + 1 < points.size(); ++i) {
       const TPoint2D next = moved(points, i, field, clearance_m + params.margin_m);

@@ -11,6 +11,7 @@ using mrpt::math::TPoint2D;
 using Points = std::vector<TPoint2D>;
 
 constexpr int kMostRounds = 60;
+constexpr double kLeastGain = 0.01;  // for which a corner is cut in two [cells]
 
 double length(const Points& path) {
   double out = 0;
@@ -31,7 +32,7 @@ class String {
       cutCorners();
       dropNeedless();
       const double now = length(path_);
-      if (before - now < 1e-3 * field_.frame().resolution_m) break;
+      if (before - now < kLeastGain * field_.frame().resolution_m) break;
       before = now;
     }
   }
@@ -67,8 +68,10 @@ class String {
     for (size_t i = 1; i + 1 < path_.size(); ++i) {
       const TPoint2D a = out.back(), b = path_[i], c = path_[i + 1];
       const double deep = depth(a, b, c);
-      if (deep > 0) out.push_back(b + (a - b) * deep);
-      out.push_back(b + (c - b) * deep);
+      const TPoint2D p = b + (a - b) * deep, q = b + (c - b) * deep;
+      const bool gains = (p - b).norm() + (b - q).norm() - (q - p).norm() > kLeastGain * field_.frame().resolution_m;
+      out.push_back(gains ? p : b);
+      if (gains) out.push_back(q);
     }
     out.push_back(path_.back());
     path_ = std::move(out);
