@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/localization_config.h"
+#include "sidestep-plan/path_config.h"
 #include "support/run_program.h"
 
 namespace sidestep::testing {
@@ -68,6 +69,7 @@ TEST(Documents, EachProgramIsInTheListOfPrograms) {
 
 TEST(Documents, TheTableOfParametersIsThatOfTheCode) {
   LocalizeConfig config;
+  PathConfig path;
   const std::string expected =
       "# Parameters\n\n"
       "All that a YAML for `sidestep-localize` may hold, with defaults. Generated from the code; do not edit. After a\n"
@@ -75,10 +77,13 @@ TEST(Documents, TheTableOfParametersIsThatOfTheCode) {
       "    SIDESTEP_REGENERATE=1 build/release/bin/test_contracts\n\n"
       "A dot separates a group from its key: `ekf.gate` is `gate` under `ekf:`. Whatever a file leaves out keeps its\n"
       "default. `sidestep-localize --write-config` prints the same as YAML.\n\n" +
-      markdownTable([&](ParamVisitor& v) { config.visit(v); });
+      markdownTable([&](ParamVisitor& v) { config.visit(v); }) +
+      "\n## sidestep-plan path\n\n`sidestep-plan path --write-config` prints them as YAML.\n\n" +
+      markdownTable([&](ParamVisitor& v) { path.visit(v); });
   const auto file = kSource / "doc" / "parameters.md";
   if (std::getenv("SIDESTEP_REGENERATE") != nullptr) writeFile(file, expected);
-  EXPECT_EQ(readFile(file), expected) << "out of date; SIDESTEP_REGENERATE=1 build/release/bin/test_contracts writes it";
+  EXPECT_EQ(readFile(file), expected)
+      << "out of date; SIDESTEP_REGENERATE=1 build/release/bin/test_contracts writes it";
 }
 
 }  // namespace
