@@ -10,7 +10,7 @@
 namespace sidestep {
 namespace {
 
-const std::vector<std::string> kSensorWords = {"odometry", "imu", "gps", "beacons"};
+const std::vector<std::string> kSensorWords = {"odometry", "imu", "gps", "beacons", "laser"};
 
 std::vector<std::string> split(const std::string& list) {
   std::vector<std::string> out;
@@ -23,7 +23,7 @@ void checkSensors(const std::vector<std::string>& sensors, const std::string& wh
   for (const auto& s : sensors) {
     if (std::find(kSensorWords.begin(), kSensorWords.end(), s) != kSensorWords.end()) continue;
     const auto near = nearestWord(s, kSensorWords);
-    throw ConfigError(where + ": '" + s + "' is no sensor, allowed odometry, imu, gps, beacons" +
+    throw ConfigError(where + ": '" + s + "' is no sensor, allowed odometry, imu, gps, beacons, laser" +
                       (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
 }
@@ -50,9 +50,9 @@ void setInitialPose(const std::string& text, StartParams& start) {
 }  // namespace
 
 void LocalizeConfig::visit(ParamVisitor& v) {
-  v.choice("filter", filter, {"ekf", "pf", "odometry"}, "the estimator");
+  v.choice("filter", filter, {"ekf", "pf", "mcl", "odometry"}, "the estimator");
   v.integer("seed", seed, {0, 2e9}, "of the random numbers, for filters that draw any");
-  v.texts("sensors", sensors, "of odometry, imu, gps, beacons; empty: those that the log has");
+  v.texts("sensors", sensors, "of odometry, imu, gps, beacons, laser; empty: those that the log has");
   v.choice("align", align, {"auto", "none", "first", "se2"},
            "how the estimate is laid onto the truth before errors are taken; auto: none where both frames are known");
   v.section("ground_truth", "the truth's frame, as a pose in the map", [this](ParamVisitor& w) {
@@ -63,10 +63,14 @@ void LocalizeConfig::visit(ParamVisitor& v) {
   });
   v.section("ekf", "extended Kalman filter (section 3.1)", [this](ParamVisitor& w) { ekf.visit(w); });
   v.section("pf", "particle filter (section 3.2)", [this](ParamVisitor& w) { pf.visit(w); });
+  v.section("mcl", "Monte Carlo localization in a map", [this](ParamVisitor& w) { mcl.visit(w); });
+  v.text("map", map, "for mcl: ROS map.yaml, .gridmap(.gz), .simplemap(.gz), or an image");
+  v.section("map_read", "what some maps do not say themselves", [this](ParamVisitor& w) { map_read.visit(w); });
   robot.visit(v);
 }
 
 bool LocalizeConfig::uses(const std::string& sensor) const {
+  if (sensor == "laser" && filter != "mcl") return false;
   if (!sensors.empty()) return std::find(sensors.begin(), sensors.end(), sensor) != sensors.end();
   return sensor != "beacons" || !robot.beacons.beacons.empty();
 }
@@ -77,11 +81,16 @@ LocalizeConfig effectiveConfig(const LocalizeOptions& o) {
   if (!o.filter.empty()) c.filter = o.filter;
   if (!o.align.empty()) c.align = o.align;
   if (o.seed) c.seed = *o.seed;
+  if (!o.map.empty()) c.map = o.map;
   if (!o.sensors.empty()) c.sensors = split(o.sensors);
   if (c.filter == "odometry") c.sensors = {"odometry"};
   checkSensors(c.sensors, o.sensors.empty() ? o.config_file + ": sensors" : "--sensors");
   if (!o.initial_pose.empty()) setInitialPose(o.initial_pose, c.robot.start);
   c.robot.odometry.check();
+  if (c.filter == "mcl" && c.map.empty())
+    throw ConfigError("--filter mcl needs a map: give --map FILE, or map: FILE in the configuration");
+  if (c.filter != "mcl" && std::find(c.sensors.begin(), c.sensors.end(), "laser") != c.sensors.end())
+    throw ConfigError("--sensors laser: only --filter mcl uses a laser, in a map");
   if (c.uses("beacons") && c.robot.beacons.beacons.empty())
     throw ConfigError("--sensors beacons: the configuration names no beacons; list them under beacons.beacons");
   return c;

@@ -9,7 +9,9 @@
 #include "core/params.h"
 #include "localization/ekf.h"
 #include "localization/localizer.h"
+#include "localization/mcl.h"
 #include "localization/particle_filter.h"
+#include "maps/map_file.h"
 
 namespace sidestep {
 
@@ -21,6 +23,9 @@ struct LocalizeConfig {
   LocalizerParams robot;
   EkfParams ekf;
   PfParams pf;
+  MclParams mcl;
+  std::string map;
+  MapReadParams map_read;
   std::string align = "auto";
   double truth_x_m = 0, truth_y_m = 0, truth_yaw = 0;  // T_map_truth
   bool truth_frame_given = false;
@@ -32,7 +37,7 @@ struct LocalizeConfig {
 /// What is asked for on the command line.
 struct LocalizeOptions {
   std::string log, config_file, output = "sidestep-localize-out", ground_truth, initial_pose;
-  std::string filter, sensors, align;
+  std::string filter, sensors, align, map;
   std::vector<std::string> labels;
   double from_s = 0, to_s = 1e18;
   bool overwrite = false, quiet = false, write_config = false, no_picture = false;

@@ -3,6 +3,7 @@
 #include "sidestep-localize/localize_run.h"
 
 #include <mrpt/core/Clock.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationBeaconRanges.h>
 #include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
@@ -39,7 +40,15 @@ mrpt::obs::CObservationRobotPose asObservation(const Estimate& e) {
   return o;
 }
 
+/// Fixes tell where the robot starts; a filter with a map need not wait for them unless they are asked for by name.
+bool expectsFixes(const LocalizeConfig& c) { return c.uses("gps") && (c.filter != "mcl" || !c.sensors.empty()); }
+
 std::unique_ptr<PoseFilter> makeFilter(const LocalizeConfig& config) {
+  if (config.filter == "mcl") {
+    const auto model = std::make_shared<ScanModel>(readMap(config.map, config.map_read), config.mcl.scan);
+    const bool global = !config.robot.start.pose_given && !expectsFixes(config);
+    return makeMcl(config.mcl, static_cast<uint64_t>(config.seed), model, global);
+  }
   if (config.filter == "pf") return makeParticleFilter(config.pf, static_cast<uint64_t>(config.seed));
   return makeEkf(config.ekf);
 }
@@ -86,8 +95,10 @@ class Run {
     return r;
   }
   static Expectation expectation(const LocalizeConfig& c) {
-    const double offset_sd = c.filter == "pf" ? c.pf.heading_offset_sd : c.ekf.heading_offset_sd;
-    return {c.uses("gps"), c.uses("imu") && c.robot.imu.heading != "off", offset_sd};
+    const double offset_sd = c.filter == "pf"    ? c.pf.heading_offset_sd
+                             : c.filter == "mcl" ? c.mcl.engine.heading_offset_sd
+                                                 : c.ekf.heading_offset_sd;
+    return {expectsFixes(c), c.uses("imu") && c.robot.imu.heading != "off", offset_sd};
   }
   void handle(const LogEntry& e);
   void feed(const LogEntry& e);
@@ -139,6 +150,9 @@ void Run::feed(const LogEntry& e) {
     localizer_.imu(streamOf(e), e.time_s, dynamic_cast<const CObservationIMU&>(*e.observation));
   } else if (e.kind == SensorKind::kBeacons) {
     localizer_.beacons(streamOf(e), e.time_s, dynamic_cast<const CObservationBeaconRanges&>(*e.observation));
+  } else if (e.kind == SensorKind::kLaser) {
+    if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(e.observation.get()))
+      localizer_.laser(streamOf(e), e.time_s, *scan);
   } else if (e.kind == SensorKind::kGps) {
     if (const auto* gps = dynamic_cast<const CObservationGPS*>(e.observation.get()))
       localizer_.gps(streamOf(e), e.time_s, *gps);
@@ -185,6 +199,7 @@ Alignment Run::alignment() const {
   if (config_.align == "none") return Alignment::kNone;
   if (config_.align == "first") return Alignment::kFirstPose;
   if (config_.align == "se2") return Alignment::kLeastSquares;
+  if (used("laser")) return Alignment::kNone;  // the map's frame
   const bool gps = used("gps"), beacons = used("beacons");
   if (!gps && !beacons) return Alignment::kFirstPose;
   const bool known = (gps && config_.robot.gps.datum_given) || (beacons && config_.truth_frame_given);

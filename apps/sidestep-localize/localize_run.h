@@ -6,8 +6,8 @@
 
 namespace sidestep {
 
-/// Runs a filter over a log and leaves estimate.rawlog, trajectory.tum, trajectory.png, metrics.json, effective.yaml and
-/// command.txt in the output folder; prints the table of errors. Memory does not grow with the log.
+/// Runs a filter over a log and leaves estimate.rawlog, trajectory.tum, trajectory.png, metrics.json, effective.yaml
+/// and command.txt in the output folder; prints the table of errors. Memory does not grow with the log.
 ExitCode localize(const LocalizeOptions& options);
 
 }  // namespace sidestep

@@ -50,6 +50,8 @@ const char* word(Correction::Reason reason) {
       return "too_late";
     case Correction::Reason::kNotObservable:
       return "not_usable";
+    case Correction::Reason::kNothingNew:
+      return "nothing_new";
   }
   return "";
 }
@@ -133,6 +135,7 @@ void Ekf<N>::predict(const MotionStep& motion) {
 
 template <int N>
 Correction Ekf<N>::correct(const Measurement& m) {
+  if (m.kind == Measurement::Kind::kScan) return {Correction::Reason::kNotObservable, 0, 0};
   switch (m.size()) {
     case 3:
       return correctPose<3>(m);

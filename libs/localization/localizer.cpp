@@ -32,6 +32,7 @@ void LocalizerParams::visit(ParamVisitor& v) {
   v.section("imu", "inertial unit", [this](ParamVisitor& w) { imu.visit(w); });
   v.section("gps", "satellite positioning", [this](ParamVisitor& w) { gps.visit(w); });
   v.section("beacons", "ranges to known beacons", [this](ParamVisitor& w) { beacons.visit(w); });
+  v.section("laser", "laser scans, for mcl", [this](ParamVisitor& w) { laser.visit(w); });
 }
 
 Localizer::Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, const Expectation& expect)
@@ -115,7 +116,8 @@ void Localizer::imu(int stream, double time_s, const mrpt::obs::CObservationIMU&
     ++u.used;
     return;
   }
-  auto m = headingMeasurement(params_.imu, time_s, *reading.heading_rad, last_heading_s_ > 0 ? time_s - last_heading_s_ : 0);
+  auto m =
+      headingMeasurement(params_.imu, time_s, *reading.heading_rad, last_heading_s_ > 0 ? time_s - last_heading_s_ : 0);
   last_heading_s_ = time_s;
   m.stream = stream;
   add(m);
@@ -146,6 +148,17 @@ void Localizer::beacons(int stream, double time_s, const mrpt::obs::CObservation
   }
 }
 
+void Localizer::laser(int stream, double time_s, const mrpt::obs::CObservation2DRangeScan& o) {
+  ++use(stream).read;
+  Measurement m;
+  m.kind = Measurement::Kind::kScan;
+  m.time_s = time_s - params_.laser.delay_s;
+  m.stream = stream;
+  m.scan = readScan(params_.laser, o);
+  if (!m.scan) return refuse(stream, "no_range");
+  add(m);
+}
+
 // ---- placing in time ----
 
 void Localizer::add(const Measurement& m) {
@@ -174,7 +187,8 @@ void Localizer::place(const Measurement& m) {
 }
 
 void Localizer::insertLate(const Measurement& m) {
-  if (m.time_s < base_time_s_) return refuse(m.stream, m.time_s < now_s_ - params_.late_window_s ? "too_late" : "before_start");
+  if (m.time_s < base_time_s_)
+    return refuse(m.stream, m.time_s < now_s_ - params_.late_window_s ? "too_late" : "before_start");
   size_t i = history_.size();
   while (i > 0 && history_[i - 1].time_s > m.time_s) --i;
   Event e;
@@ -286,7 +300,7 @@ void Localizer::owe(std::optional<uint64_t> odometry_index) {
 void Localizer::giveOut() {
   if (!owed_) return;
   owed_ = false;
-  ready_.push_back({now_s_, filter_->estimate(), odometry_pose_, owed_index_});
+  ready_.push_back({now_s_, filter_->estimate(), odometry_pose_, owed_index_, filter_->lostProbability()});
 }
 
 void Localizer::trimHistory() {

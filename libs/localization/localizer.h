@@ -13,6 +13,7 @@
 
 #include "localization/motion_source.h"
 #include "localization/pose_filter.h"
+#include "localization/scan.h"
 #include "localization/sensor_models.h"
 #include "localization/start_alignment.h"
 
@@ -24,6 +25,7 @@ struct LocalizerParams {
   ImuParams imu;
   GpsParams gps;
   BeaconParams beacons;
+  LaserParams laser;
   StartParams start;
   double late_window_s = 2;
   double coast_after_s = 1;
@@ -37,9 +39,10 @@ struct LocalizerParams {
 /// A pose at one instant, as told to the user.
 struct Estimate {
   double time_s = 0;
-  PoseBelief belief;                  ///< in the map frame
-  mrpt::math::TPose2D odometry;       ///< odometry alone, from the same start [m, rad]
+  PoseBelief belief;                       ///< in the map frame
+  mrpt::math::TPose2D odometry;            ///< odometry alone, from the same start [m, rad]
   std::optional<uint64_t> odometry_index;  ///< which odometry reading (0, 1, ...) this belongs to; none while coasting
+  std::optional<double> lost_probability;  ///< of an error over 1 m, from filters that can tell
 };
 
 /// What became of one label's measurements.
@@ -54,9 +57,9 @@ struct SensorUse {
 
 /// What the sensors in use can tell of the start.
 struct Expectation {
-  bool positions = false;       ///< fixes will come: wait for them
-  bool heading = false;         ///< so may the IMU's heading
-  double heading_offset_sd = 0; ///< how well that is known as the robot's [rad]
+  bool positions = false;        ///< fixes will come: wait for them
+  bool heading = false;          ///< so may the IMU's heading
+  double heading_offset_sd = 0;  ///< how well that is known as the robot's [rad]
 };
 
 /// Feeds a filter from a robot's sensors: motion from odometry (and gyro), measurements at their own times.
@@ -77,6 +80,7 @@ class Localizer {
   void gps(int stream, double time_s, const mrpt::obs::CObservationGPS& o);
   void position(int stream, double time_s, double x, double y);
   void beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o);
+  void laser(int stream, double time_s, const mrpt::obs::CObservation2DRangeScan& o);
   /// No more observations come: what waits is processed.
   void finish();
 
@@ -130,8 +134,8 @@ class Localizer {
     MotionSource::Step step;
     uint64_t odometry_index;
   };
-  std::deque<Waiting> waiting_;             // motion before the start is known
-  std::vector<double> base_state_;          // state before history_.front()
+  std::deque<Waiting> waiting_;     // motion before the start is known
+  std::vector<double> base_state_;  // state before history_.front()
   std::vector<std::vector<double>> spare_states_;
   double base_time_s_ = 0, now_s_ = 0, last_heading_s_ = 0;
   MotionStep last_motion_;
