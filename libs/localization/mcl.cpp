@@ -14,7 +14,7 @@ namespace {
 constexpr size_t kMemorySize = 8;
 constexpr double kWide_m = 0.5;  // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
-constexpr size_t kBatch = 4096;
+constexpr double kLostPrior = 0.01;  // weight of what is drawn anew: others must fit much worse to lose to it
 }  // namespace
 
 MclParams::MclParams() {
@@ -32,6 +32,12 @@ void MclParams::visit(ParamVisitor& v) {
            "effective share of the particles that a scan must leave; else it counts for less");
   v.number("candidates_per_m2", candidates_per_m2, {1, 10000}, "1/m^2",
            "poses tried on each free square metre where the robot may be anywhere (ten million at most)");
+  v.number(
+      "noise_scale", noise_scale, {0.01, 100}, "",
+      "sd of odometry's noise by odometry.noise: scans correct often, and too little noise costs more than too much");
+  v.number("slip_share", slip_share, {0, 1}, "", "share of the particles that look farther around at each scan");
+  v.number("slip_m", slip_m, {0, 10}, "m", "as far as this (sd), for wheels that slip");
+  v.angle("slip_turn_deg", slip_turn, {0, 90}, "and turned by this");
   v.number("average_slow", average_slow, {0.0001, 1}, "", "weight of a scan in the slow average of fit");
   v.number("average_fast", average_fast, {0.0001, 1}, "", "weight of a scan in the fast one");
   v.number("lost_share", recovery_share, {0, 0.9}, "", "share of the particles drawn anew when scans do not fit");
@@ -45,6 +51,7 @@ Mcl::Mcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel
 }
 
 void Mcl::start(const PoseBelief& belief) {
+  estimate_.reset();
   ParticleFilter::start(belief);
   memory_ = Memory();
   if (!global_) return;
@@ -61,13 +68,18 @@ void Mcl::start(const PoseBelief& belief) {
 }
 
 void Mcl::predict(const MotionStep& motion) {
-  ParticleFilter::predict(motion);
+  estimate_.reset();
+  MotionStep wider = motion;
+  wider.distance_var *= mcl_.noise_scale * mcl_.noise_scale;
+  wider.turn_var *= mcl_.noise_scale * mcl_.noise_scale;
+  ParticleFilter::predict(wider);
   if (motion.still || !std::isfinite(motion.distance_m) || !std::isfinite(motion.turn_rad)) return;
   memory_.travel += std::abs(motion.distance_m);
   memory_.turn += std::abs(motion.turn_rad);
 }
 
 Correction Mcl::correct(const Measurement& m) {
+  estimate_.reset();
   return m.kind == Measurement::Kind::kScan ? correctScan(m) : ParticleFilter::correct(m);
 }
 
@@ -83,6 +95,7 @@ Correction Mcl::correctScan(const Measurement& m) {
     cloud_.equalWeights();
     return {};
   }
+  jitter();
   model_->logLikelihoods(*m.scan, cloud_.x.data(), cloud_.y.data(), cloud_.yaw.data(), cloud_.size(),
                          log_likelihood_.data());
   const auto n = static_cast<Eigen::Index>(cloud_.size());
@@ -93,7 +106,22 @@ Correction Mcl::correctScan(const Measurement& m) {
   multiplyWeights(0);
   watch(m, std::exp(fit));
   if (params_.resampling.each_step || degenerate()) resample();
+  estimate_.reset();
   return {};
+}
+
+/// Wheels that slip and stamps that are off are no Gaussian noise: a few particles, spread evenly, look farther around.
+void Mcl::jitter() {
+  const auto every = static_cast<size_t>(mcl_.slip_share > 0 ? std::ceil(1 / mcl_.slip_share) : 0);
+  if (every == 0) return;
+  for (size_t k = random_.below(every); k < cloud_.size(); k += every) {
+    const auto i = static_cast<Eigen::Index>(k);
+    double g[3];
+    random_.gaussians(g, 3);
+    cloud_.x[i] += mcl_.slip_m * g[0];
+    cloud_.y[i] += mcl_.slip_m * g[1];
+    cloud_.yaw[i] = wrapAngle(cloud_.yaw[i] + mcl_.slip_turn * g[2]);
+  }
 }
 
 /// The scan's exponent: `beam_weight`, or less if too few particles would be left.
@@ -171,19 +199,24 @@ void Mcl::watch(const Measurement& m, double likelihood) {
   const bool lost = a.fast < mcl_.recovery_below * a.slow || a.explained < 0.5;
   if (!lost || m.time_s - a.injected_s < mcl_.recovery_pause_s) return;
   a.injected_s = m.time_s;
+  estimate_.reset();
   const auto count = static_cast<size_t>(mcl_.recovery_share * static_cast<double>(cloud_.size()));
-  makeRoom(count);
+  makeRoom(count, kLostPrior);
   drawCandidates(*m.scan, mcl_.candidates_per_m2 / 10, cloud_.size() - count, count);
 }
 
 PoseBelief Mcl::estimate() const {
+  if (!estimate_) estimate_ = heaviest();
+  return *estimate_;
+}
+
+PoseBelief Mcl::heaviest() const {
   PoseBelief all = cloud_.belief();
   if (all.covariance.topLeftCorner<2, 2>().trace() < kWide_m * kWide_m) return all;
-  const auto modes = cloud_.modes(0.5, 0.35, 0.01);
-  if (modes.empty()) return all;
-  const Eigen::Vector3d d(all.mean.x - modes[0].belief.mean.x, all.mean.y - modes[0].belief.mean.y,
-                          wrapAngle(all.mean.phi - modes[0].belief.mean.phi));
-  all.mean = modes[0].belief.mean;
+  const PoseMode mode = cloud_.densest(0.5, 0.35);
+  const Eigen::Vector3d d(all.mean.x - mode.belief.mean.x, all.mean.y - mode.belief.mean.y,
+                          wrapAngle(all.mean.phi - mode.belief.mean.phi));
+  all.mean = mode.belief.mean;
   all.covariance += d * d.transpose();
   return all;
 }
@@ -210,6 +243,7 @@ void Mcl::save(std::vector<double>& out) const {
 }
 
 void Mcl::restore(const std::vector<double>& state) {
+  estimate_.reset();
   ParticleFilter::restore(state);
   const double* p = state.data() + state.size() - kMemorySize;
   memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]};

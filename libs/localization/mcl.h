@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "localization/particle_filter.h"
@@ -17,6 +18,10 @@ struct MclParams {
   double min_turn = 0.02;  // rad
   double least_ess_share = 0.1;
   double candidates_per_m2 = 300;
+  double noise_scale = 2;
+  double slip_share = 0.1;
+  double slip_m = 0.2;
+  double slip_turn = 0.0872664625997164788;  // rad
   double average_slow = 0.02;
   double average_fast = 0.3;
   double recovery_share = 0.2;
@@ -49,7 +54,9 @@ class Mcl final : public ParticleFilter {
   void restore(const std::vector<double>& state) override;
 
  private:
+  PoseBelief heaviest() const;
   Correction correctScan(const Measurement& m);
+  void jitter();
   double temper() const;
   void drawCandidates(const Scan& scan, double per_m2, size_t first, size_t count);
   void watch(const Measurement& m, double likelihood);
@@ -67,6 +74,7 @@ class Mcl final : public ParticleFilter {
   std::shared_ptr<const ScanModel> model_;
   bool global_;
   Memory memory_;
+  mutable std::optional<PoseBelief> estimate_;  // until something changes
   Eigen::ArrayXd log_likelihood_;
 };
 

@@ -359,20 +359,23 @@ mrpt::math::TPose2D ParticleFilter::drawFrom(const Measurement& m, Eigen::Index 
   return p;
 }
 
-void ParticleFilter::makeRoom(size_t count) {
+void ParticleFilter::makeRoom(size_t count, double share) {
   const size_t n = cloud_.size(), kept = n - std::min(count, n - 1);
   resampler_.draw(scheme_, cloud_.weight.data(), n, kept, random_, indices_.data());
   cloud_.select(indices_.data(), kept);
   cloud_.resize(n);
   for (size_t k = kept; k < n; ++k)
     cloud_.offset[static_cast<Eigen::Index>(k)] = cloud_.offset[static_cast<Eigen::Index>(random_.below(kept))];
-  cloud_.equalWeights();
+  if (kept == n) return cloud_.equalWeights();
+  const auto old = static_cast<Eigen::Index>(kept), made = static_cast<Eigen::Index>(n - kept);
+  cloud_.weight.head(old).setConstant((1 - share) / static_cast<double>(kept));
+  cloud_.weight.segment(old, made).setConstant(share / static_cast<double>(n - kept));
 }
 
 void ParticleFilter::inject(const Measurement& m) {
   const size_t n = cloud_.size();
   const auto count = static_cast<size_t>(params_.recovery_share * static_cast<double>(n));
-  makeRoom(count);
+  makeRoom(count, params_.recovery_share);
   for (size_t k = n - count; k < n; ++k) {
     const auto i = static_cast<Eigen::Index>(k), like = static_cast<Eigen::Index>(random_.below(n - count));
     const auto p = drawFrom(m, like);

@@ -72,9 +72,8 @@ class ParticleFilter : public PoseFilter {
   void resample();
   auto likelihoods() const { return likelihood_.head(static_cast<Eigen::Index>(cloud_.size())); }
   auto likelihoods() { return likelihood_.head(static_cast<Eigen::Index>(cloud_.size())); }
-  /// The first particles stay as a draw of the cloud, the last `count` are to be set; their weights are those of the
-  /// rest.
-  void makeRoom(size_t count);
+  /// The first particles stay as a draw of the cloud, the last `count` are to be set; together they weigh `share`.
+  void makeRoom(size_t count, double share);
 
   PfParams params_;
   Random random_;
