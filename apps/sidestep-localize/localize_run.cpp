@@ -12,6 +12,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <map>
 
 #include "common/program.h"
@@ -52,6 +53,25 @@ std::unique_ptr<PoseFilter> makeFilter(const LocalizeConfig& config) {
   if (config.filter == "pf") return makeParticleFilter(config.pf, static_cast<uint64_t>(config.seed));
   return makeEkf(config.ekf);
 }
+
+/// lost.csv: the probability that an estimate is off by more than 1 m, from filters that can tell.
+class LostFile {
+ public:
+  explicit LostFile(const std::string& file) : name_(file) {}
+  void write(double time_s, double probability) {
+    if (!file_.is_open()) {
+      file_.open(name_);
+      file_ << "time_s,probability\n";
+    }
+    char row[64];
+    std::snprintf(row, sizeof row, "%.6f,%.6f\n", time_s, probability);
+    file_ << row;
+  }
+
+ private:
+  std::string name_;
+  std::ofstream file_;
+};
 
 /// The ellipses of the picture, some 20 to 40 along whatever length.
 class Ellipses {
@@ -121,6 +141,7 @@ class Run {
   TumWriter tum_;
   TrajectoryFigure figure_;
   Ellipses ellipses_;
+  LostFile lost_{folder_.file("lost.csv")};
   std::map<std::string, int> streams_;
   std::map<std::string, SensorKind> kinds_;
   std::vector<std::string> warnings_;
@@ -182,6 +203,7 @@ void Run::take() {
     figure_.estimate.add(e.belief.mean.x, e.belief.mean.y);
     figure_.odometry.add(e.odometry.x, e.odometry.y);
     ellipses_.add(e);
+    if (e.lost_probability) lost_.write(e.time_s, *e.lost_probability);
     truth_.add(e);
     ++estimates_;
   }
