@@ -45,6 +45,7 @@ LocalizeConfig effectiveConfig(const LocalizeOptions& o) {
   if (o.smooth) c.smooth = true;
   if (!o.align.empty()) c.align = o.align;
   if (o.seed) c.seed = *o.seed;
+  if (!o.map.empty()) c.map = o.map;
   if (!o.sensors.empty()) c.sensors = split(o.sensors);
   if (c.filter == "odometry") c.sensors = {"odometry"};
   if (!o.initial_pose.empty()) setInitialPose(o.initial_pose, c.robot.start);

@@ -12,7 +12,7 @@ namespace sidestep {
 /// What is asked for on the command line.
 struct LocalizeOptions {
   std::string log, config_file, output = "sidestep-localize-out", ground_truth, initial_pose;
-  std::string filter, sensors, align;
+  std::string filter, sensors, align, map;
   std::vector<std::string> labels;
   double from_s = 0, to_s = 1e18;
   bool overwrite = false, quiet = false, write_config = false, no_picture = false, smooth = false;

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <map>
 
@@ -35,6 +36,25 @@ mrpt::obs::CObservationRobotPose asObservation(const Estimate& e) {
     for (int j = 0; j < 3; ++j) o.pose.cov(at[i], at[j]) = P(i, j);
   return o;
 }
+
+/// lost.csv: the probability that an estimate is off by more than 1 m, from filters that can tell.
+class LostFile {
+ public:
+  explicit LostFile(const std::string& file) : name_(file) {}
+  void write(double time_s, double probability) {
+    if (!file_.is_open()) {
+      file_.open(name_);
+      file_ << "time_s,probability\n";
+    }
+    char row[64];
+    std::snprintf(row, sizeof row, "%.6f,%.6f\n", time_s, probability);
+    file_ << row;
+  }
+
+ private:
+  std::string name_;
+  std::ofstream file_;
+};
 
 /// The ellipses of the picture, some 20 to 40 along whatever length.
 class Ellipses {
@@ -104,6 +124,7 @@ class Run {
   TumWriter tum_;
   TrajectoryFigure figure_;
   Ellipses ellipses_;
+  LostFile lost_{folder_.file("lost.csv")};
   std::vector<std::string> warnings_;
   double begin_s_ = steadySeconds(), first_s_ = 0, last_s_ = 0;
   uint64_t estimates_ = 0;
@@ -130,6 +151,7 @@ void Run::tell(const Estimate& e) {
   figure_.estimate.add(e.belief.mean.x, e.belief.mean.y);
   figure_.odometry.add(e.odometry.x, e.odometry.y);
   ellipses_.add(e);
+  if (e.lost_probability) lost_.write(e.time_s, *e.lost_probability);
   truth_.add(e);
   ++estimates_;
 }
@@ -189,6 +211,7 @@ Alignment Run::alignment() const {
   if (config_.align == "none") return Alignment::kNone;
   if (config_.align == "first") return Alignment::kFirstPose;
   if (config_.align == "se2") return Alignment::kLeastSquares;
+  if (used("laser")) return Alignment::kNone;  // the map's frame
   const bool gps = used("gps"), beacons = used("beacons");
   if (!gps && !beacons) return Alignment::kFirstPose;
   const bool known = (gps && config_.robot.gps.datum_given) || (beacons && config_.truth_frame_given);

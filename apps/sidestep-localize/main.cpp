@@ -13,10 +13,13 @@ int main(int argc, char** argv) {
   app.add_flag("-w,--overwrite", o.overwrite, "write into a folder that holds something");
   app.add_flag("-q,--quiet", o.quiet, "no progress bar");
   app.add_option("--filter", o.filter, "the estimator")
-      ->check(CLI::IsMember({"ekf", "pf", "odometry"}))
+      ->check(CLI::IsMember({"ekf", "pf", "mcl", "odometry"}))
       ->type_name("NAME");
   app.add_flag("--smooth", o.smooth, "estimates by the whole log, not only by what came before (ekf)");
-  app.add_option("--sensors", o.sensors, "of odometry,imu,gps,beacons; default: those the log has")->type_name("LIST");
+  app.add_option("--sensors", o.sensors, "of odometry,imu,gps,beacons,laser; default: those the log has")
+      ->type_name("LIST");
+  app.add_option("--map", o.map, "where the robot is, for mcl: ROS yaml, .gridmap, .simplemap, image")
+      ->type_name("FILE");
   app.add_option("--initial-pose", o.initial_pose, "where the robot starts")->type_name("x,y,deg");
   app.add_option("--ground-truth", o.ground_truth, "true poses (TUM), instead of the log's own")->type_name("FILE");
   app.add_option("--align", o.align, "lay the estimate onto the truth: auto, none, first pose, least squares")

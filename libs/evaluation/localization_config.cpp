@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/localization_config.h"
 
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationBeaconRanges.h>
 #include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
@@ -16,13 +17,13 @@
 namespace sidestep {
 namespace {
 
-const std::vector<std::string> kSensorWords = {"odometry", "imu", "gps", "beacons"};
+const std::vector<std::string> kSensorWords = {"odometry", "imu", "gps", "beacons", "laser"};
 
 void checkSensors(const std::vector<std::string>& sensors, const std::string& where) {
   for (const auto& s : sensors) {
     if (std::find(kSensorWords.begin(), kSensorWords.end(), s) != kSensorWords.end()) continue;
     const auto near = nearestWord(s, kSensorWords);
-    throw ConfigError(where + ": '" + s + "' is no sensor, allowed odometry, imu, gps, beacons" +
+    throw ConfigError(where + ": '" + s + "' is no sensor, allowed odometry, imu, gps, beacons, laser" +
                       (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
 }
@@ -30,10 +31,10 @@ void checkSensors(const std::vector<std::string>& sensors, const std::string& wh
 }  // namespace
 
 void LocalizeConfig::visit(ParamVisitor& v) {
-  v.choice("filter", filter, {"ekf", "pf", "odometry"}, "the estimator");
+  v.choice("filter", filter, {"ekf", "pf", "mcl", "odometry"}, "the estimator");
   v.flag("smooth", smooth, "estimates by the whole log (Rauch-Tung-Striebel), not only by what came before; ekf only");
   v.integer("seed", seed, {0, 2e9}, "of the random numbers, for filters that draw any");
-  v.texts("sensors", sensors, "of odometry, imu, gps, beacons; empty: those that the log has");
+  v.texts("sensors", sensors, "of odometry, imu, gps, beacons, laser; empty: those that the log has");
   v.choice("align", align, {"auto", "none", "first", "se2"},
            "how the estimate is laid onto the truth before errors are taken; auto: none where both frames are known");
   v.section("ground_truth", "the truth's frame, as a pose in the map", [this](ParamVisitor& w) {
@@ -44,29 +45,44 @@ void LocalizeConfig::visit(ParamVisitor& v) {
   });
   v.section("ekf", "extended Kalman filter (section 3.1)", [this](ParamVisitor& w) { ekf.visit(w); });
   v.section("pf", "particle filter (section 3.2)", [this](ParamVisitor& w) { pf.visit(w); });
+  v.section("mcl", "Monte Carlo localization in a map", [this](ParamVisitor& w) { mcl.visit(w); });
+  v.text("map", map, "for mcl: ROS map.yaml, .gridmap(.gz), .simplemap(.gz), or an image");
+  v.section("map_read", "what some maps do not say themselves", [this](ParamVisitor& w) { map_read.visit(w); });
   robot.visit(v);
 }
 
 bool LocalizeConfig::uses(const std::string& sensor) const {
+  if (sensor == "laser" && filter != "mcl") return false;
   if (!sensors.empty()) return std::find(sensors.begin(), sensors.end(), sensor) != sensors.end();
   return sensor != "beacons" || !robot.beacons.beacons.empty();
 }
 
 Expectation LocalizeConfig::expectation() const {
-  const double offset_sd = filter == "pf" ? pf.heading_offset_sd : ekf.heading_offset_sd;
-  return {uses("gps"), uses("imu") && robot.imu.heading != "off", offset_sd};
+  const double offset_sd = filter == "pf"    ? pf.heading_offset_sd
+                           : filter == "mcl" ? mcl.engine.heading_offset_sd
+                                             : ekf.heading_offset_sd;
+  return {expectsFixes(), uses("imu") && robot.imu.heading != "off", offset_sd};
 }
 
 void LocalizeConfig::check(const std::string& where) const {
   checkSensors(sensors, where);
   robot.odometry.check();
-  if (smooth && filter == "pf")
+  if (smooth && (filter == "pf" || filter == "mcl"))
     throw ConfigError("smooth: = true, but only the ekf can be smoothed; take --filter ekf, or leave it out");
+  if (filter == "mcl" && map.empty())
+    throw ConfigError("--filter mcl needs a map: give --map FILE, or map: FILE in the configuration");
+  if (filter != "mcl" && std::find(sensors.begin(), sensors.end(), "laser") != sensors.end())
+    throw ConfigError("--sensors laser: only --filter mcl uses a laser, in a map");
   if (uses("beacons") && robot.beacons.beacons.empty())
     throw ConfigError("--sensors beacons: the configuration names no beacons; list them under beacons.beacons");
 }
 
 std::unique_ptr<PoseFilter> makeFilter(const LocalizeConfig& config, uint64_t seed) {
+  if (config.filter == "mcl") {
+    const auto model = std::make_shared<ScanModel>(readMap(config.map, config.map_read), config.mcl.scan);
+    const bool global = !config.robot.start.pose_given && !config.expectsFixes();
+    return makeMcl(config.mcl, seed, model, global);
+  }
   if (config.filter == "pf") return makeParticleFilter(config.pf, seed);
   return makeEkf(config.ekf);
 }
@@ -87,6 +103,9 @@ void LocalizationFeed::feed(const LogEntry& e) {
     localizer_.imu(streamOf(e), e.time_s, dynamic_cast<const CObservationIMU&>(*e.observation));
   } else if (e.kind == SensorKind::kBeacons) {
     localizer_.beacons(streamOf(e), e.time_s, dynamic_cast<const CObservationBeaconRanges&>(*e.observation));
+  } else if (e.kind == SensorKind::kLaser) {
+    if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(e.observation.get()))
+      localizer_.laser(streamOf(e), e.time_s, *scan);
   } else if (e.kind == SensorKind::kGps) {
     if (const auto* gps = dynamic_cast<const CObservationGPS*>(e.observation.get()))
       localizer_.gps(streamOf(e), e.time_s, *gps);

@@ -10,7 +10,9 @@
 #include "datasets/log_entry.h"
 #include "localization/ekf.h"
 #include "localization/localizer.h"
+#include "localization/mcl.h"
 #include "localization/particle_filter.h"
+#include "maps/map_file.h"
 
 namespace sidestep {
 
@@ -23,12 +25,17 @@ struct LocalizeConfig {
   LocalizerParams robot;
   EkfParams ekf;
   PfParams pf;
+  MclParams mcl;
+  std::string map;
+  MapReadParams map_read;
   std::string align = "auto";
   double truth_x_m = 0, truth_y_m = 0, truth_yaw = 0;  // T_map_truth
   bool truth_frame_given = false;
 
   void visit(ParamVisitor& v);
   bool uses(const std::string& sensor) const;
+  /// Fixes tell where the robot starts; a filter with a map need not wait for them unless they are asked for by name.
+  bool expectsFixes() const { return uses("gps") && (filter != "mcl" || !sensors.empty()); }
   /// What its sensors can tell of the start.
   Expectation expectation() const;
   /// @param where  what named the sensors, for the message

@@ -50,6 +50,8 @@ const char* word(Correction::Reason reason) {
       return "too_late";
     case Correction::Reason::kNotObservable:
       return "not_usable";
+    case Correction::Reason::kNothingNew:
+      return "nothing_new";
   }
   return "";
 }
@@ -200,6 +202,7 @@ void Ekf<N>::smoothReset(const std::vector<double>& before, double opened, std::
 
 template <int N>
 Correction Ekf<N>::correct(const Measurement& m) {
+  if (m.kind == Measurement::Kind::kScan) return {Correction::Reason::kNotObservable, 0, 0};
   switch (m.size()) {
     case 3:
       return correctPose<3>(m);

@@ -32,6 +32,7 @@ void LocalizerParams::visit(ParamVisitor& v) {
   v.section("imu", "inertial unit", [this](ParamVisitor& w) { imu.visit(w); });
   v.section("gps", "satellite positioning", [this](ParamVisitor& w) { gps.visit(w); });
   v.section("beacons", "ranges to known beacons", [this](ParamVisitor& w) { beacons.visit(w); });
+  v.section("laser", "laser scans, for mcl", [this](ParamVisitor& w) { laser.visit(w); });
 }
 
 Localizer::Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, const Expectation& expect)
@@ -159,6 +160,17 @@ void Localizer::beacons(int stream, double time_s, const mrpt::obs::CObservation
     m.stream = stream;
     add(m);
   }
+}
+
+void Localizer::laser(int stream, double time_s, const mrpt::obs::CObservation2DRangeScan& o) {
+  ++use(stream).read;
+  Measurement m;
+  m.kind = Measurement::Kind::kScan;
+  m.time_s = time_s - params_.laser.delay_s;
+  m.stream = stream;
+  m.scan = readScan(params_.laser, o);
+  if (!m.scan) return refuse(stream, "no_range");
+  add(m);
 }
 
 // ---- placing in time ----
@@ -305,7 +317,7 @@ void Localizer::owe(std::optional<uint64_t> odometry_index) {
 void Localizer::giveOut() {
   if (!owed_) return;
   owed_ = false;
-  ready_.push_back({now_s_, filter_->estimate(), odometry_pose_, owed_index_});
+  ready_.push_back({now_s_, filter_->estimate(), odometry_pose_, owed_index_, filter_->lostProbability()});
 }
 
 void Localizer::trimHistory() {

@@ -13,6 +13,7 @@
 
 #include "localization/motion_source.h"
 #include "localization/pose_filter.h"
+#include "localization/scan.h"
 #include "localization/sensor_models.h"
 #include "localization/smoother.h"
 #include "localization/start_alignment.h"
@@ -25,6 +26,7 @@ struct LocalizerParams {
   ImuParams imu;
   GpsParams gps;
   BeaconParams beacons;
+  LaserParams laser;
   StartParams start;
   double late_window_s = 2;
   double coast_after_s = 1;
@@ -41,6 +43,7 @@ struct Estimate {
   PoseBelief belief;                       ///< in the map frame
   mrpt::math::TPose2D odometry;            ///< odometry alone, from the same start [m, rad]
   std::optional<uint64_t> odometry_index;  ///< which odometry reading (0, 1, ...) this belongs to; none while coasting
+  std::optional<double> lost_probability;  ///< of an error over 1 m, from filters that can tell
 };
 
 /// What became of one label's measurements.
@@ -81,6 +84,7 @@ class Localizer {
   void heading(int stream, double time_s, double heading_rad);
   void yawRate(int stream, double time_s, double rate);
   void beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o);
+  void laser(int stream, double time_s, const mrpt::obs::CObservation2DRangeScan& o);
   /// No more observations come: what waits is processed.
   void finish();
   /// From now on estimates are held until `finish`, which smooths them by the whole log (Smoother: memory grows with it);

@@ -62,6 +62,7 @@ Innovation innovation(const Measurement& m, const mrpt::math::TPose2D& pose) {
       addRange(m, pose, out);
       break;
     case Measurement::Kind::kStill:
+    case Measurement::Kind::kScan:
       break;
   }
   return out;

@@ -7,8 +7,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 #include "localization/fast_math.h"
 
@@ -19,6 +17,56 @@ namespace {
 Eigen::Matrix3d squareRoot(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+/// Numbers of cells of (x, y, yaw): 24 bits each for x and y, 16 for the yaw, which goes round.
+class CellKeys {
+ public:
+  CellKeys(double cell_m, double cell_rad)
+      : cell_m_(cell_m), turns_(std::max<int64_t>(1, std::llround(2 * M_PI / cell_rad))) {}
+  uint64_t of(double x, double y, double yaw) const {
+    const auto a = static_cast<int64_t>(std::floor((yaw + M_PI) / (2 * M_PI) * static_cast<double>(turns_)));
+    return pack(std::llround(std::floor(x / cell_m_)), std::llround(std::floor(y / cell_m_)), a);
+  }
+  /// The k-th of the 26 neighbours and itself.
+  uint64_t near(uint64_t key, int k) const {
+    return pack(static_cast<int64_t>(key >> 40) + k / 3 % 3 - 1, static_cast<int64_t>(key >> 16 & 0xffffff) + k % 3 - 1,
+                static_cast<int64_t>(key & 0xffff) + k / 9 - 1);
+  }
+
+ private:
+  uint64_t pack(int64_t ix, int64_t iy, int64_t a) const {
+    return (static_cast<uint64_t>(ix) & 0xffffff) << 40 | (static_cast<uint64_t>(iy) & 0xffffff) << 16 |
+           static_cast<uint64_t>((a + turns_) % turns_);
+  }
+  double cell_m_;
+  int64_t turns_;
+};
+
+/// For each of the sorted cells the number of the connected group that it belongs to.
+std::vector<uint32_t> connected(const std::vector<uint64_t>& cells, const CellKeys& keys) {
+  constexpr uint32_t kNone = 0xffffffff;
+  std::vector<uint32_t> group(cells.size(), kNone);
+  uint32_t groups = 0;
+  std::vector<size_t> open;
+  for (size_t first = 0; first < cells.size(); ++first) {
+    if (group[first] != kNone) continue;
+    group[first] = groups;
+    open.push_back(first);
+    while (!open.empty()) {
+      const uint64_t cell = cells[open.back()];
+      open.pop_back();
+      for (int k = 0; k < 27; ++k) {
+        const auto it = std::lower_bound(cells.begin(), cells.end(), keys.near(cell, k));
+        const auto at = static_cast<size_t>(it - cells.begin());
+        if (it == cells.end() || *it != keys.near(cell, k) || group[at] != kNone) continue;
+        group[at] = groups;
+        open.push_back(at);
+      }
+    }
+    ++groups;
+  }
+  return group;
 }
 
 }  // namespace
@@ -119,46 +167,75 @@ PoseBelief ParticleCloud::beliefOf(const Eigen::Ref<const Eigen::ArrayXd>& w) co
   return out;
 }
 
-std::vector<PoseMode> ParticleCloud::modes(double cell_m, double cell_rad, double least) const {
-  using Cell = std::tuple<int64_t, int64_t, int64_t>;
-  const int64_t turns = std::max<int64_t>(1, static_cast<int64_t>(std::lround(2 * M_PI / cell_rad)));
-  const auto cellOf = [&](Eigen::Index i) {
-    const auto a = static_cast<int64_t>(std::floor((yaw[i] + M_PI) / (2 * M_PI) * static_cast<double>(turns)));
-    return Cell(std::llround(std::floor(x[i] / cell_m)), std::llround(std::floor(y[i] / cell_m)), a % turns);
-  };
-  std::map<Cell, int> group;
-  std::vector<int> of(size_);
-  for (Eigen::Index i = 0; i < length(); ++i) group.emplace(cellOf(i), -1);
-  int groups = 0;
-  for (auto& [start, number] : group) {
-    if (number >= 0) continue;
-    number = groups++;
-    std::vector<Cell> open = {start};
-    while (!open.empty()) {
-      const auto [cx, cy, ca] = open.back();
-      open.pop_back();
-      for (int k = 0; k < 27; ++k) {
-        const auto near = group.find({cx + k % 3 - 1, cy + k / 3 % 3 - 1, (ca + k / 9 - 1 + turns) % turns});
-        if (near == group.end() || near->second >= 0) continue;
-        near->second = number;
-        open.push_back(near->first);
-      }
-    }
+std::vector<PoseMode> ParticleCloud::modes(double cell_m, double cell_rad, double least, size_t most) const {
+  const CellKeys keys(cell_m, cell_rad);
+  std::vector<uint64_t> of(size_);
+  for (size_t k = 0; k < size_; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    of[k] = keys.of(x[i], y[i], yaw[i]);
   }
-  std::vector<double> weight_of(static_cast<size_t>(groups), 0);
-  for (Eigen::Index i = 0; i < length(); ++i) {
-    of[static_cast<size_t>(i)] = group.at(cellOf(i));
-    weight_of[static_cast<size_t>(of[static_cast<size_t>(i)])] += weight[i];
+  std::vector<uint64_t> cells = of;
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  const auto group = connected(cells, keys);
+  std::vector<double> weight_of(cells.size(), 0);
+  std::vector<uint32_t> group_of(size_);
+  for (size_t k = 0; k < size_; ++k) {
+    const auto at = static_cast<size_t>(std::lower_bound(cells.begin(), cells.end(), of[k]) - cells.begin());
+    group_of[k] = group[at];
+    weight_of[group[at]] += weight[static_cast<Eigen::Index>(k)];
   }
+  std::vector<uint32_t> heavy;
+  for (uint32_t g = 0; g < weight_of.size(); ++g)
+    if (weight_of[g] >= least && weight_of[g] > 0) heavy.push_back(g);
+  std::stable_sort(heavy.begin(), heavy.end(), [&](auto a, auto b) { return weight_of[a] > weight_of[b]; });
+  if (heavy.size() > most) heavy.resize(most);
   std::vector<PoseMode> out;
   Eigen::ArrayXd share(length());
-  for (int g = 0; g < groups; ++g) {
-    const double sum = weight_of[static_cast<size_t>(g)];
-    if (!(sum >= least) || !(sum > 0)) continue;
-    for (Eigen::Index i = 0; i < length(); ++i) share[i] = of[static_cast<size_t>(i)] == g ? weight[i] / sum : 0;
-    out.push_back({sum, beliefOf(share)});
+  for (const uint32_t g : heavy) {
+    for (size_t k = 0; k < size_; ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      share[i] = group_of[k] == g ? weight[i] / weight_of[g] : 0;
+    }
+    out.push_back({weight_of[g], beliefOf(share)});
   }
-  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  return out;
+}
+
+PoseMode ParticleCloud::densest(double cell_m, double cell_rad) const {
+  const CellKeys keys(cell_m, cell_rad);
+  std::vector<std::pair<uint64_t, uint32_t>> cells(size_);
+  for (size_t k = 0; k < size_; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    cells[k] = {keys.of(x[i], y[i], yaw[i]), static_cast<uint32_t>(k)};
+  }
+  std::sort(cells.begin(), cells.end());
+  double best = -1;
+  Eigen::Index centre = 0;
+  for (size_t k = 0; k < size_;) {
+    const size_t first = k;
+    double sum = 0;
+    for (; k < size_ && cells[k].first == cells[first].first; ++k) sum += weight[cells[k].second];
+    if (sum > best) {
+      best = sum;
+      centre = cells[first].second;
+    }
+  }
+  PoseMode out{best, {}};
+  out.belief.mean = {x[centre], y[centre], yaw[centre]};
+  Eigen::ArrayXd share(length());
+  for (int round = 0; round < 2; ++round) {
+    const auto& c = out.belief.mean;
+    for (Eigen::Index i = 0; i < length(); ++i) {
+      const bool near = std::abs(x[i] - c.x) < 2 * cell_m && std::abs(y[i] - c.y) < 2 * cell_m &&
+                        std::abs(wrapAngle(yaw[i] - c.phi)) < 2 * cell_rad;
+      share[i] = near ? weight[i] : 0;
+    }
+    out.weight = share.sum();
+    if (!(out.weight > 0)) return {best, belief()};
+    share /= out.weight;
+    out.belief = beliefOf(share);
+  }
   return out;
 }
 

@@ -45,8 +45,12 @@ class ParticleCloud {
   void equalWeights();
   /// Weighted mean (circular for the yaw) and covariance (of wrapped yaw differences).
   PoseBelief belief() const;
-  /// Connected groups of cells of the given size, heaviest first; those under `least` are left out.
-  std::vector<PoseMode> modes(double cell_m, double cell_rad, double least) const;
+  /// Connected groups of cells of the given size, heaviest first; those under `least` are left out, and those after the
+  /// first `most`.
+  std::vector<PoseMode> modes(double cell_m, double cell_rad, double least, size_t most = 100) const;
+
+  /// What lies within two cells of the heaviest cell: a mode, without looking for the others.
+  PoseMode densest(double cell_m, double cell_rad) const;
 
   auto weights() { return weight.head(length()); }
   auto weights() const { return weight.head(length()); }

@@ -68,7 +68,7 @@ void PfParams::visit(ParamVisitor& v) {
 }
 
 ParticleFilter::ParticleFilter(const PfParams& params, uint64_t seed)
-    : params_(params), scheme_(resamplingScheme(params.resampling.scheme)), random_(seed) {
+    : params_(params), random_(seed), scheme_(resamplingScheme(params.resampling.scheme)) {
   for (int dof = 1; dof <= 3; ++dof) gate_[static_cast<size_t>(dof)] = chiSquareQuantile(params.gate_probability, dof);
   const auto& r = params.resampling;
   const auto most = static_cast<size_t>(std::max(params.particles, r.kld ? std::max(r.kld_min, r.kld_max) : 0));
@@ -154,6 +154,7 @@ void ParticleFilter::innovations(const Measurement& m) {
     case Kind::kRange:
       return rangeInnovations(m);
     case Kind::kStill:
+    case Kind::kScan:
       return;
   }
 }
@@ -224,6 +225,7 @@ void ParticleFilter::multiplyWeights(double floor) {
 // ---- correction ----
 
 Correction ParticleFilter::correct(const Measurement& m) {
+  if (m.kind == Kind::kScan) return {Correction::Reason::kNotObservable, 0, 0};  // there is no map
   if (!sane(m)) return {Correction::Reason::kNotFinite, 0, m.size()};
   return m.kind == Kind::kStill ? correctBias(m) : correctPose(m);
 }
@@ -272,10 +274,13 @@ Correction ParticleFilter::correctPose(const Measurement& m) {
     multiplyWeights(floor);
   }
   updateOffsets(m);
-  const double n = static_cast<double>(cloud_.size());
-  const auto& r = params_.resampling;
-  if (r.each_step || effectiveSampleSize(cloud_.weight.data(), cloud_.size()) < r.ess_share * n) resample();
+  if (params_.resampling.each_step || degenerate()) resample();
   return result;
+}
+
+bool ParticleFilter::degenerate() const {
+  const double n = static_cast<double>(cloud_.size());
+  return effectiveSampleSize(cloud_.weight.data(), cloud_.size()) < params_.resampling.ess_share * n;
 }
 
 void ParticleFilter::updateOffsets(const Measurement& m) {
@@ -354,21 +359,31 @@ mrpt::math::TPose2D ParticleFilter::drawFrom(const Measurement& m, Eigen::Index 
   return p;
 }
 
-void ParticleFilter::inject(const Measurement& m) {
-  const size_t n = cloud_.size();
-  const auto kept = static_cast<size_t>(std::ceil((1 - params_.recovery_share) * static_cast<double>(n)));
+void ParticleFilter::makeRoom(size_t count, double share) {
+  const size_t n = cloud_.size(), kept = n - std::min(count, n - 1);
   resampler_.draw(scheme_, cloud_.weight.data(), n, kept, random_, indices_.data());
   cloud_.select(indices_.data(), kept);
   cloud_.resize(n);
-  for (size_t k = kept; k < n; ++k) {
-    const auto i = static_cast<Eigen::Index>(k), like = static_cast<Eigen::Index>(random_.below(kept));
+  for (size_t k = kept; k < n; ++k)
+    cloud_.offset[static_cast<Eigen::Index>(k)] = cloud_.offset[static_cast<Eigen::Index>(random_.below(kept))];
+  if (kept == n) return cloud_.equalWeights();
+  const auto old = static_cast<Eigen::Index>(kept), made = static_cast<Eigen::Index>(n - kept);
+  cloud_.weight.head(old).setConstant((1 - share) / static_cast<double>(kept));
+  cloud_.weight.segment(old, made).setConstant(share / static_cast<double>(n - kept));
+}
+
+void ParticleFilter::inject(const Measurement& m) {
+  const size_t n = cloud_.size();
+  const auto count = static_cast<size_t>(params_.recovery_share * static_cast<double>(n));
+  makeRoom(count, params_.recovery_share);
+  for (size_t k = n - count; k < n; ++k) {
+    const auto i = static_cast<Eigen::Index>(k), like = static_cast<Eigen::Index>(random_.below(n - count));
     const auto p = drawFrom(m, like);
     cloud_.x[i] = p.x;
     cloud_.y[i] = p.y;
     cloud_.yaw[i] = p.phi;
     cloud_.offset[i] = cloud_.offset[like];
   }
-  cloud_.equalWeights();
 }
 
 // ---- resampling ----

@@ -51,7 +51,7 @@ struct PfParams {
 /// to all. The gyro's bias is a mean of what the gyro says at standstill.
 ///
 /// A step of n particles costs O(n) and does not allocate. The numbers drawn depend on the seed and the calls alone.
-class ParticleFilter final : public PoseFilter {
+class ParticleFilter : public PoseFilter {
  public:
   ParticleFilter(const PfParams& params, uint64_t seed);
   void start(const PoseBelief& belief) override;
@@ -64,6 +64,22 @@ class ParticleFilter final : public PoseFilter {
   const ParticleCloud& cloud() const { return cloud_; }
   /// Where else the robot may be: groups of neighbouring particles, with at least 1 % of the weight each.
   std::vector<PoseMode> modes() const;
+
+ protected:
+  /// Multiplies the weights by likelihood_ + floor and lets their sum be 1.
+  void multiplyWeights(double floor);
+  bool degenerate() const;
+  void resample();
+  auto likelihoods() const { return likelihood_.head(static_cast<Eigen::Index>(cloud_.size())); }
+  auto likelihoods() { return likelihood_.head(static_cast<Eigen::Index>(cloud_.size())); }
+  /// The first particles stay as a draw of the cloud, the last `count` are to be set; together they weigh `share`.
+  void makeRoom(size_t count, double share);
+
+  PfParams params_;
+  Random random_;
+  ParticleCloud cloud_;
+  Eigen::ArrayXd likelihood_;  // scratch: what weights are multiplied with
+  double offset_var_ = 0;
 
  private:
   void innovations(const Measurement& m);
@@ -81,27 +97,19 @@ class ParticleFilter final : public PoseFilter {
   bool outOfPatience(const Measurement& m);
   void inject(const Measurement& m);
   mrpt::math::TPose2D drawFrom(const Measurement& m, Eigen::Index like);
-  void multiplyWeights(double floor);
-  void resample();
   void roughen(size_t count);
   size_t wantedSize(size_t drawn);
   auto row(int k) const { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
   auto row(int k) { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
-  auto likelihoods() const { return likelihood_.head(static_cast<Eigen::Index>(cloud_.size())); }
-  auto likelihoods() { return likelihood_.head(static_cast<Eigen::Index>(cloud_.size())); }
 
   static constexpr size_t kGroups = 3;
-  PfParams params_;
   ResamplingScheme scheme_;
   std::array<double, 4> gate_{};  // NIS bound by degrees of freedom
-  Random random_;
-  ParticleCloud cloud_;
   Resampler resampler_;
   CellCounter cells_;
   std::vector<uint32_t> indices_;
   std::array<Eigen::ArrayXd, 3> nu_;  // innovations, a component an array
-  Eigen::ArrayXd likelihood_;
-  double offset_var_ = 0, bias_ = 0, bias_var_ = 0;
+  double bias_ = 0, bias_var_ = 0;
   std::array<double, kGroups> refused_since_{};  // time of the first refusal in a row, 0 = none
 };
 

@@ -4,6 +4,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace sidestep {
 
 /// What became of a measurement.
 struct Correction {
-  enum class Reason { kAccepted, kReset, kGated, kNotFinite, kTooLate, kNotObservable };
+  enum class Reason { kAccepted, kReset, kGated, kNotFinite, kTooLate, kNotObservable, kNothingNew };
   Reason reason = Reason::kAccepted;
   double nis = 0;  ///< normalized innovation squared, against the covariance before the correction
   int dof = 0;     ///< its degrees of freedom
@@ -43,6 +44,8 @@ class PoseFilter {
   virtual void predict(const MotionStep& motion) = 0;
   virtual Correction correct(const Measurement& measurement) = 0;
   virtual PoseBelief estimate() const = 0;
+  /// Probability that the estimate is off by more than 1 m, of filters that can tell.
+  virtual std::optional<double> lostProbability() const { return std::nullopt; }
   /// State into `out`, which keeps its memory between calls.
   virtual void save(std::vector<double>& out) const = 0;
   virtual void restore(const std::vector<double>& state) = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "support/run_program.h"
 
@@ -203,6 +204,38 @@ TEST(Localize, TheParticleFilterDoesAsWellOnTheDemoLog) {
   const auto first = tumOf("one", 1);
   EXPECT_NE(first, tumOf("two", 2));
   EXPECT_EQ(first, tumOf("again", 1));
+}
+
+/// Where MRPT's own filter ends on this log: (15.89, -10.0, 4.8 deg); from anywhere on the map.
+TEST(Localize, ALaserInAMapFindsTheRobotFromAnywhere) {
+  const TemporaryFolder folder;
+  const auto run = runShell(
+      "sidestep-localize /usr/share/mrpt/datasets/localization_demo.rawlog --filter mcl --no-picture --map "
+      "/usr/share/mrpt/datasets/localization_demo.simplemap.gz --sensors odometry,laser -o '" +
+      (folder / "out").string() + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto lines = linesOf(readFile(folder / "out" / "trajectory.tum"));
+  double t, x, y, z, qx, qy, qz, qw;
+  std::istringstream(lines.back()) >> t >> x >> y >> z >> qx >> qy >> qz >> qw;
+  EXPECT_NEAR(x, 15.89, 0.3);
+  EXPECT_NEAR(y, -10.0, 0.3);
+  EXPECT_NEAR(2 * std::atan2(qz, qw), 4.8 * M_PI / 180, 0.07);
+}
+
+TEST(Localize, MclNeedsAMapAndOnlyItUsesALaser) {
+  const auto without = runShell("sidestep-localize " + kLog + " --filter mcl");
+  EXPECT_EQ(without.exit_code, 2);
+  expectOneLine(without);
+  EXPECT_NE(without.err.find("--map FILE"), std::string::npos) << without.err;
+  const auto other = runShell("sidestep-localize " + kLog + " --filter ekf --sensors odometry,laser");
+  EXPECT_EQ(other.exit_code, 2);
+  expectOneLine(other);
+  EXPECT_NE(other.err.find("--filter mcl"), std::string::npos) << other.err;
+  const TemporaryFolder folder;
+  const auto missing = runShell("sidestep-localize " + kLog + " --filter mcl --map /no/such/map.yaml -o '" +
+                                (folder / "out").string() + "'");
+  EXPECT_EQ(missing.exit_code, 3);
+  expectOneLine(missing);
 }
 
 TEST(Localize, FromAndToCutTheLog) {

@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/mcl.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "localization/fast_math.h"
+
+namespace sidestep {
+namespace {
+constexpr size_t kMemorySize = 8;
+constexpr double kWide_m = 0.5;  // a cloud with a larger sd may be several places
+constexpr double kMostCandidates = 1e7;
+constexpr double kLostPrior = 0.01;  // weight of what is drawn anew: others must fit much worse to lose to it
+}  // namespace
+
+MclParams::MclParams() {
+  engine.particles = 2000;
+  engine.resampling.kld = true;
+  engine.resampling.kld_min = 300;
+}
+
+void MclParams::visit(ParamVisitor& v) {
+  engine.visit(v);
+  v.section("scan", "how a scan is weighed", [this](ParamVisitor& w) { scan.visit(w); });
+  v.number("min_travel_m", min_travel_m, {0, 100}, "m", "a scan is used after this much travel, or");
+  v.angle("min_turn_deg", min_turn, {0, 180}, "this much turning");
+  v.number("least_ess_share", least_ess_share, {0, 1}, "",
+           "effective share of the particles that a scan must leave; else it counts for less");
+  v.number("candidates_per_m2", candidates_per_m2, {1, 10000}, "1/m^2",
+           "poses tried on each free square metre where the robot may be anywhere (ten million at most)");
+  v.number(
+      "noise_scale", noise_scale, {0.01, 100}, "",
+      "sd of odometry's noise by odometry.noise: scans correct often, and too little noise costs more than too much");
+  v.number("slip_share", slip_share, {0, 1}, "", "share of the particles that look farther around at each scan");
+  v.number("slip_m", slip_m, {0, 10}, "m", "as far as this (sd), for wheels that slip");
+  v.angle("slip_turn_deg", slip_turn, {0, 90}, "and turned by this");
+  v.number("average_slow", average_slow, {0.0001, 1}, "", "weight of a scan in the slow average of fit");
+  v.number("average_fast", average_fast, {0.0001, 1}, "", "weight of a scan in the fast one");
+  v.number("lost_share", recovery_share, {0, 0.9}, "", "share of the particles drawn anew when scans do not fit");
+  v.number("lost_below", recovery_below, {0, 1}, "", "they do not: fast average below this part of the slow one");
+  v.number("lost_pause_s", recovery_pause_s, {0, 1000}, "s", "not more often than this");
+}
+
+Mcl::Mcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel> model, bool global)
+    : ParticleFilter(params.engine, seed), mcl_(params), model_(std::move(model)), global_(global) {
+  log_likelihood_.resize(static_cast<Eigen::Index>(cloud_.capacity()));
+}
+
+void Mcl::start(const PoseBelief& belief) {
+  estimate_.reset();
+  ParticleFilter::start(belief);
+  memory_ = Memory();
+  if (!global_) return;
+  memory_.anywhere = 1;
+  cloud_.resize(cloud_.capacity());
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(cloud_.size()); ++i) {
+    const auto p = model_->drawFree(random_);
+    cloud_.x[i] = p.x;
+    cloud_.y[i] = p.y;
+    cloud_.yaw[i] = p.phi;
+    cloud_.offset[i] = 0;
+  }
+  cloud_.equalWeights();
+}
+
+void Mcl::predict(const MotionStep& motion) {
+  estimate_.reset();
+  MotionStep wider = motion;
+  wider.distance_var *= mcl_.noise_scale * mcl_.noise_scale;
+  wider.turn_var *= mcl_.noise_scale * mcl_.noise_scale;
+  ParticleFilter::predict(wider);
+  if (motion.still || !std::isfinite(motion.distance_m) || !std::isfinite(motion.turn_rad)) return;
+  memory_.travel += std::abs(motion.distance_m);
+  memory_.turn += std::abs(motion.turn_rad);
+}
+
+Correction Mcl::correct(const Measurement& m) {
+  estimate_.reset();
+  return m.kind == Measurement::Kind::kScan ? correctScan(m) : ParticleFilter::correct(m);
+}
+
+Correction Mcl::correctScan(const Measurement& m) {
+  if (!m.scan || m.scan->size() == 0) return {Correction::Reason::kNotFinite, 0, 0};
+  const bool moved = memory_.travel >= mcl_.min_travel_m || memory_.turn >= mcl_.min_turn;
+  if (!moved && memory_.scans > 0) return {Correction::Reason::kNothingNew, 0, 0};
+  memory_.travel = memory_.turn = 0;
+  ++memory_.scans;
+  if (memory_.anywhere > 0) {
+    memory_.anywhere = 0;
+    drawCandidates(*m.scan, mcl_.candidates_per_m2, 0, cloud_.size());
+    cloud_.equalWeights();
+    return {};
+  }
+  jitter();
+  model_->logLikelihoods(*m.scan, cloud_.x.data(), cloud_.y.data(), cloud_.yaw.data(), cloud_.size(),
+                         log_likelihood_.data());
+  const auto n = static_cast<Eigen::Index>(cloud_.size());
+  const auto l = log_likelihood_.head(n);
+  const double fit = (cloud_.weights() * l).sum() / static_cast<double>(m.scan->size());
+  const double alpha = temper();
+  likelihoods() = (alpha * (l - l.maxCoeff())).max(-700.0).exp();
+  multiplyWeights(0);
+  watch(m, std::exp(fit));
+  if (params_.resampling.each_step || degenerate()) resample();
+  estimate_.reset();
+  return {};
+}
+
+/// Wheels that slip and stamps that are off are no Gaussian noise: a few particles, spread evenly, look farther around.
+void Mcl::jitter() {
+  const auto every = static_cast<size_t>(mcl_.slip_share > 0 ? std::ceil(1 / mcl_.slip_share) : 0);
+  if (every == 0) return;
+  for (size_t k = random_.below(every); k < cloud_.size(); k += every) {
+    const auto i = static_cast<Eigen::Index>(k);
+    double g[3];
+    random_.gaussians(g, 3);
+    cloud_.x[i] += mcl_.slip_m * g[0];
+    cloud_.y[i] += mcl_.slip_m * g[1];
+    cloud_.yaw[i] = wrapAngle(cloud_.yaw[i] + mcl_.slip_turn * g[2]);
+  }
+}
+
+/// The scan's exponent: `beam_weight`, or less if too few particles would be left.
+double Mcl::temper() const {
+  const auto n = static_cast<Eigen::Index>(cloud_.size());
+  const auto l = log_likelihood_.head(n);
+  const auto w = cloud_.weights();
+  const double best = l.maxCoeff(), least = mcl_.least_ess_share * static_cast<double>(n);
+  const auto ess = [&](double alpha) {
+    double sum = 0, squares = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double v = w[i] * weightExp(alpha * (l[i] - best));
+      sum += v;
+      squares += v * v;
+    }
+    return squares > 0 ? sum * sum / squares : 0;
+  };
+  double high = model_->weight();
+  if (ess(high) >= std::min(least, 0.5 * effectiveSampleSize(cloud_.weight.data(), cloud_.size()))) return high;
+  double low = 0;
+  for (int k = 0; k < 8; ++k) {
+    const double middle = 0.5 * (low + high);
+    (ess(middle) < least ? high : low) = middle;
+  }
+  return low;
+}
+
+/// Sets particles [first, first + count) to draws from poses all over the map, weighed by the scan; with an exponent
+/// that leaves some of them for each. Allocates: it happens at the start and when the robot is lost.
+void Mcl::drawCandidates(const Scan& scan, double per_m2, size_t first, size_t count) {
+  const double wanted = std::clamp(per_m2 * model_->freeArea(), static_cast<double>(count), kMostCandidates);
+  const auto total = static_cast<Eigen::Index>(wanted);
+  Eigen::ArrayXd x(total), y(total), yaw(total), l(total);
+  for (Eigen::Index i = 0; i < total; ++i) {
+    const auto p = model_->drawFree(random_);
+    x[i] = p.x;
+    y[i] = p.y;
+    yaw[i] = p.phi;
+  }
+  model_->logLikelihoods(scan, x.data(), y.data(), yaw.data(), static_cast<size_t>(total), l.data());
+  l -= l.maxCoeff();
+  const double least = std::min(0.5 * wanted, 0.5 * static_cast<double>(count));
+  double low = 0, high = model_->weight();
+  Eigen::ArrayXd w(total);
+  const auto ess = [&](double alpha) {
+    for (Eigen::Index i = 0; i < total; ++i) w[i] = weightExp(alpha * l[i]);
+    w /= w.sum();
+    return 1 / w.square().sum();
+  };
+  if (ess(high) < least) {
+    for (int k = 0; k < 10; ++k) {
+      const double middle = 0.5 * (low + high);
+      (ess(middle) < least ? high : low) = middle;
+    }
+    ess(low);
+  }
+  Resampler resampler;
+  std::vector<uint32_t> index(count);
+  resampler.draw(ResamplingScheme::kSystematic, w.data(), static_cast<size_t>(total), count, random_, index.data());
+  for (size_t k = 0; k < count; ++k) {
+    const auto i = static_cast<Eigen::Index>(first + k), j = static_cast<Eigen::Index>(index[k]);
+    cloud_.x[i] = x[j];
+    cloud_.y[i] = y[j];
+    cloud_.yaw[i] = yaw[j];
+  }
+}
+
+/// Augmented MCL (Thrun, Burgard & Fox 2005, table 8.3), with draws that fit the scan instead of draws from anywhere.
+void Mcl::watch(const Measurement& m, double likelihood) {
+  auto& a = memory_;
+  const bool first = a.slow == 0;
+  a.slow += (first ? 1 : mcl_.average_slow) * (likelihood - a.slow);
+  a.fast += (first ? 1 : mcl_.average_fast) * (likelihood - a.fast);
+  a.explained += mcl_.average_fast * (model_->explained(*m.scan, estimate().mean) - a.explained);
+  const bool lost = a.fast < mcl_.recovery_below * a.slow || a.explained < 0.5;
+  if (!lost || m.time_s - a.injected_s < mcl_.recovery_pause_s) return;
+  a.injected_s = m.time_s;
+  estimate_.reset();
+  const auto count = static_cast<size_t>(mcl_.recovery_share * static_cast<double>(cloud_.size()));
+  makeRoom(count, kLostPrior);
+  drawCandidates(*m.scan, mcl_.candidates_per_m2 / 10, cloud_.size() - count, count);
+}
+
+PoseBelief Mcl::estimate() const {
+  if (!estimate_) estimate_ = heaviest();
+  return *estimate_;
+}
+
+PoseBelief Mcl::heaviest() const {
+  PoseBelief all = cloud_.belief();
+  if (all.covariance.topLeftCorner<2, 2>().trace() < kWide_m * kWide_m) return all;
+  const PoseMode mode = cloud_.densest(0.5, 0.35);
+  const Eigen::Vector3d d(all.mean.x - mode.belief.mean.x, all.mean.y - mode.belief.mean.y,
+                          wrapAngle(all.mean.phi - mode.belief.mean.phi));
+  all.mean = mode.belief.mean;
+  all.covariance += d * d.transpose();
+  return all;
+}
+
+double Mcl::shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) const {
+  const auto n = static_cast<Eigen::Index>(cloud_.size());
+  double share = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double dx = cloud_.x[i] - mean.x, dy = cloud_.y[i] - mean.y;
+    if (dx * dx + dy * dy > distance_m * distance_m) share += cloud_.weight[i];
+  }
+  return share;
+}
+
+std::optional<double> Mcl::lostProbability() const {
+  const double beyond = shareBeyond(estimate().mean, 1);
+  return beyond;
+}
+
+void Mcl::save(std::vector<double>& out) const {
+  ParticleFilter::save(out);
+  const auto& a = memory_;
+  for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.injected_s, a.scans}) out.push_back(v);
+}
+
+void Mcl::restore(const std::vector<double>& state) {
+  estimate_.reset();
+  ParticleFilter::restore(state);
+  const double* p = state.data() + state.size() - kMemorySize;
+  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]};
+}
+
+std::unique_ptr<PoseFilter> makeMcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel> model,
+                                    bool global) {
+  return std::make_unique<Mcl>(params, seed, std::move(model), global);
+}
+
+}  // namespace sidestep

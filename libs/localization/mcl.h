@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "localization/particle_filter.h"
+#include "localization/scan_model.h"
+
+namespace sidestep {
+
+/// Parameters of Monte Carlo localization.
+struct MclParams {
+  PfParams engine;
+  ScanModelParams scan;
+  double min_travel_m = 0.05;
+  double min_turn = 0.02;  // rad
+  double least_ess_share = 0.1;
+  double candidates_per_m2 = 300;
+  double noise_scale = 2;
+  double slip_share = 0.1;
+  double slip_m = 0.2;
+  double slip_turn = 0.0872664625997164788;  // rad
+  double average_slow = 0.02;
+  double average_fast = 0.3;
+  double recovery_share = 0.2;
+  double recovery_below = 0.8;
+  double recovery_pause_s = 2;
+
+  MclParams();
+  void visit(ParamVisitor& v);
+};
+
+/// Monte Carlo localization (Dellaert et al. 1999; Thrun, Burgard & Fox 2005, chapter 8) on the engine of the particle
+/// filter: whatever that takes, and laser scans against a map.
+///
+/// Where the start is unknown, a dense lattice of poses drawn over all free space is weighed by the first scan and the
+/// particles are drawn from it. A scan that would leave fewer than `least_ess_share` effective particles is taken with
+/// a smaller exponent, so that no single scan decides among many places. When scans fit worse than they used to (fast
+/// by slow average of the mean likelihood of a beam), a share of the particles is drawn anew from such a lattice. A
+/// scan is used only once the robot has moved: the same view again says nothing new.
+class Mcl final : public ParticleFilter {
+ public:
+  /// @param global  `start`'s belief is not to be trusted: the robot may be anywhere on the map
+  Mcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel> model, bool global);
+  void start(const PoseBelief& belief) override;
+  void predict(const MotionStep& motion) override;
+  Correction correct(const Measurement& measurement) override;
+  /// Of the heaviest mode; the covariance is of all particles about it.
+  PoseBelief estimate() const override;
+  std::optional<double> lostProbability() const override;
+  void save(std::vector<double>& out) const override;
+  void restore(const std::vector<double>& state) override;
+
+ private:
+  PoseBelief heaviest() const;
+  Correction correctScan(const Measurement& m);
+  void jitter();
+  double temper() const;
+  void drawCandidates(const Scan& scan, double per_m2, size_t first, size_t count);
+  void watch(const Measurement& m, double likelihood);
+  double shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) const;
+
+  struct Memory {                 // all of it plain numbers: they are saved
+    double anywhere = 0;          // 1: the robot may be anywhere, no scan has come yet
+    double travel = 0, turn = 0;  // since the last scan in use
+    double slow = 0, fast = 0;    // averages of the beams' mean likelihood
+    double explained = 1;         // average share of beams that the map explains
+    double injected_s = 0;
+    double scans = 0;
+  };
+  MclParams mcl_;
+  std::shared_ptr<const ScanModel> model_;
+  bool global_;
+  Memory memory_;
+  mutable std::optional<PoseBelief> estimate_;  // until something changes
+  Eigen::ArrayXd log_likelihood_;
+};
+
+std::unique_ptr<PoseFilter> makeMcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel> model,
+                                    bool global);
+
+}  // namespace sidestep

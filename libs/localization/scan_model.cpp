@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/scan_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace sidestep {
+namespace {
+constexpr size_t kMostBeams = 2000;
+}
+
+void ScanModelParams::visit(ParamVisitor& v) {
+  v.choice("model", model, {"field", "beam"}, "likelihood field (precomputed), or each beam followed through the map");
+  v.number("sd_m", sd_m, {0.005, 5}, "m", "sd of a beam's end, errors of map and motion included");
+  v.number("hit_share", hit_share, {0.01, 0.999}, "",
+           "share of beams that end at what the map shows; the rest anywhere");
+  v.number("short_share", short_share, {0, 0.9}, "", "beam: share of beams that end before it, at people for example");
+  v.number("short_m", short_m, {0.1, 100}, "m", "beam: mean length of those");
+  v.number("field_reach_m", field_reach_m, {0.1, 20}, "m", "field: farther from any obstacle all places are alike");
+  v.number("beam_weight", beam_weight, {0.001, 1}, "",
+           "what a beam counts for: beams of one scan err together and are not independent");
+}
+
+ScanModel::ScanModel(const GridMap& map, const ScanModelParams& params) : params_(params) {
+  ObstacleParams obstacles;
+  const auto known = blockedCells(map, obstacles);
+  obstacles.unknown_blocks = false;
+  DistanceFieldParams reach;
+  reach.cap_m = params.model == "beam" ? std::max(5.0, params.field_reach_m) : params.field_reach_m;
+  const auto walls = blockedCells(map, obstacles);
+  frame_ = map.frame();
+  if (std::count(walls.begin(), walls.end(), 1) == 0)
+    throw ConfigError("the map has no occupied cell: nothing to localize by; lower its occupied threshold");
+  for (size_t i = 0; i < known.size(); ++i)
+    if (known[i] == 0) free_.push_back(static_cast<uint32_t>(i));
+  if (free_.empty()) throw ConfigError("the map has no free cell: nowhere for the robot to be");
+  const DistanceField distances(frame_, walls, reach);
+  cos_ = std::cos(frame_.T_map_grid.phi);
+  sin_ = std::sin(frame_.T_map_grid.phi);
+  stride_ = frame_.width + 2;
+  right_ = static_cast<float>(frame_.width + 1);
+  top_ = static_cast<float>(frame_.height + 1);
+  const size_t cells = static_cast<size_t>(stride_) * static_cast<size_t>(frame_.height + 2);
+  // A beam that ends anywhere has the density 1 / max range; relative to the Gaussian's peak, with 10 m for it.
+  const double anywhere = (1 - params.hit_share) * params.sd_m * std::sqrt(2 * M_PI) / 10;
+  const auto logOf = [&](double d) {
+    return static_cast<float>(
+        std::log(params.hit_share * std::exp(-0.5 * d * d / (params.sd_m * params.sd_m)) + anywhere));
+  };
+  log_likelihood_.assign(cells, logOf(params.field_reach_m));
+  distance_.assign(cells, static_cast<float>(reach.cap_m / frame_.resolution_m));
+  for (int iy = 0; iy < frame_.height; ++iy)
+    for (int ix = 0; ix < frame_.width; ++ix) {
+      const size_t at = static_cast<size_t>(iy + 1) * static_cast<size_t>(stride_) + static_cast<size_t>(ix + 1);
+      // The raster's rim counts as blocked in the distance field; for a laser there is nothing.
+      const double d = std::max(0.0, static_cast<double>(distances.atCell(ix, iy)));
+      const int rim = 1 + std::min({ix, iy, frame_.width - 1 - ix, frame_.height - 1 - iy});
+      const bool of_rim = rim * frame_.resolution_m <= d + 1e-6;
+      if (of_rim) continue;
+      log_likelihood_[at] = logOf(std::min(d, params.field_reach_m));
+      distance_[at] = static_cast<float>(d / frame_.resolution_m);
+    }
+}
+
+double ScanModel::freeArea() const {
+  return static_cast<double>(free_.size()) * frame_.resolution_m * frame_.resolution_m;
+}
+
+mrpt::math::TPose2D ScanModel::drawFree(Random& random) const {
+  const uint32_t cell = free_[random.below(free_.size())];
+  const auto width = static_cast<uint32_t>(frame_.width);
+  const double u = (static_cast<double>(cell % width) + random.uniform()) * frame_.resolution_m;
+  const double v = (static_cast<double>(cell / width) + random.uniform()) * frame_.resolution_m;
+  return {frame_.T_map_grid.x + cos_ * u - sin_ * v, frame_.T_map_grid.y + sin_ * u + cos_ * v,
+          random.uniform(-M_PI, M_PI)};
+}
+
+/// Cells of the padded raster: the raster's own begin at 1.
+ScanModel::GridPose ScanModel::toGrid(double x, double y, double yaw) const {
+  const double dx = x - frame_.T_map_grid.x, dy = y - frame_.T_map_grid.y, per = 1 / frame_.resolution_m;
+  const double a = yaw - frame_.T_map_grid.phi;
+  return {static_cast<float>((cos_ * dx + sin_ * dy) * per + 1), static_cast<float>((-sin_ * dx + cos_ * dy) * per + 1),
+          static_cast<float>(std::cos(a) * per), static_cast<float>(std::sin(a) * per)};
+}
+
+size_t ScanModel::cellAt(float x, float y) const {
+  const int ix = static_cast<int>(std::min(std::max(x, 0.0f), right_));
+  const int iy = static_cast<int>(std::min(std::max(y, 0.0f), top_));
+  return static_cast<size_t>(iy * stride_ + ix);
+}
+
+/// The ends first, all alike and without branches; then the look-ups, four sums at a time.
+float ScanModel::field(const GridPose& p, const Scan& scan) const {
+  std::array<int32_t, kMostBeams> cell;
+  const auto n = static_cast<int>(std::min(scan.size(), kMostBeams));
+  const float* __restrict bx = scan.x.data(), * __restrict by = scan.y.data();
+  int32_t* __restrict at = cell.data();
+  const float px = p.x, py = p.y, c = p.c, s = p.s, right = right_, top = top_;
+  const int32_t stride = stride_;
+  for (int i = 0; i < n; ++i) {
+    float u = px + c * bx[i] - s * by[i], v = py + s * bx[i] + c * by[i];
+    u = u < 0 ? 0 : u;
+    u = u > right ? right : u;
+    v = v < 0 ? 0 : v;
+    v = v > top ? top : v;
+    at[i] = static_cast<int32_t>(v) * stride + static_cast<int32_t>(u);
+  }
+  const float* table = log_likelihood_.data();
+  float sum[4] = {0, 0, 0, 0};
+  int i = 0;
+  for (; i + 4 <= n; i += 4)
+    for (int k = 0; k < 4; ++k) sum[k] += table[at[i + k]];
+  for (; i < n; ++i) sum[0] += table[at[i]];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/// Sphere tracing: as far as the nearest obstacle is, the ray is free. Unit direction; all in cells.
+float ScanModel::castRay(float x, float y, float dx, float dy, float reach) const {
+  float t = 0;
+  while (t < reach) {
+    const float u = x + t * dx, v = y + t * dy;
+    if (!(u >= 0 && v >= 0 && u <= right_ && v <= top_)) return reach;
+    const float d = distance_[cellAt(u, v)];
+    if (d < 0.5f) return t;
+    t += std::max(0.5f, d - 0.75f);  // the cell's centre may be 0.7 cells from here
+  }
+  return reach;
+}
+
+float ScanModel::beams(const GridPose& p, const Scan& scan) const {
+  const float per = static_cast<float>(1 / frame_.resolution_m), sd = static_cast<float>(params_.sd_m) * per;
+  const float reach = scan.max_range * per, norm = 1 / (sd * std::sqrt(2 * static_cast<float>(M_PI)));
+  const float hit = static_cast<float>(params_.hit_share), early = static_cast<float>(params_.short_share);
+  const float rest = std::max(0.01f, 1 - hit - early), rate = 1 / (static_cast<float>(params_.short_m) * per);
+  const float lx = p.x + p.c * scan.laser_x - p.s * scan.laser_y, ly = p.y + p.s * scan.laser_x + p.c * scan.laser_y;
+  float sum = 0;
+  for (size_t i = 0; i < scan.size(); ++i) {
+    const float ex = p.x + p.c * scan.x[i] - p.s * scan.y[i] - lx, ey = p.y + p.s * scan.x[i] + p.c * scan.y[i] - ly;
+    const float z = std::sqrt(ex * ex + ey * ey);
+    if (!(z > 0)) continue;
+    const float expected = castRay(lx, ly, ex / z, ey / z, std::min(reach, z + 4 * sd));
+    const float e = (z - expected) / sd;
+    const float before = z < expected ? early * rate * std::exp(-rate * z) : 0;
+    sum += std::log((hit * norm * std::exp(-0.5f * e * e) + before + rest / reach) / norm);
+  }
+  return sum;
+}
+
+void ScanModel::logLikelihoods(const Scan& scan, const double* x, const double* y, const double* yaw, size_t n,
+                               double* out) const {
+  const bool follow = params_.model == "beam";
+  for (size_t i = 0; i < n; ++i) {
+    const GridPose p = toGrid(x[i], y[i], yaw[i]);
+    out[i] = static_cast<double>(follow ? beams(p, scan) : field(p, scan));
+  }
+}
+
+double ScanModel::explained(const Scan& scan, const mrpt::math::TPose2D& pose) const {
+  const GridPose p = toGrid(pose.x, pose.y, pose.phi);
+  const auto near = static_cast<float>(3 * params_.sd_m / frame_.resolution_m);
+  size_t count = 0;
+  for (size_t i = 0; i < scan.size(); ++i)
+    count += distance_[cellAt(p.x + p.c * scan.x[i] - p.s * scan.y[i], p.y + p.s * scan.x[i] + p.c * scan.y[i])] < near;
+  return scan.size() > 0 ? static_cast<double>(count) / static_cast<double>(scan.size()) : 0;
+}
+
+}  // namespace sidestep
