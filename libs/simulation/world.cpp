@@ -13,6 +13,8 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
+constexpr double kWallsMatter_m = 5;  // clearance to walls beyond counts as infinite
+
 enum Stream : uint64_t { kEncoders = 1, kImu, kGps, kLaser, kCrowd, kFirstRobot = 100 };
 enum RobotStream : uint64_t { kStart, kWheels, kPerception, kStreamsPerRobot };
 
@@ -187,11 +189,11 @@ void World::Impl::drive(size_t i) {
       const TPoint2D p = nearestPoint(walls.walls()[k], {at.x, at.y});
       nearest = std::min(nearest, std::hypot(p.x - at.x, p.y - at.y) - radius);
     }
-    return nearest;
+    return nearest <= kWallsMatter_m ? nearest : std::numeric_limits<double>::infinity();
   };
   robot.meter.startStep();
   if (!walls.walls().empty()) {
-    walls.near(robot.before, 5 + radius, near_walls);
+    walls.near(robot.before, kWallsMatter_m + radius, near_walls);
     const double now = clearance(robot.drive.pose());
     robot.meter.wall(time_s, now, std::abs(robot.drive.twist().vx));
     if (now < 0 && now < clearance(before)) robot.drive.block(before);

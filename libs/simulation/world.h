@@ -85,9 +85,9 @@ struct WorldSummary {
   bool arrived = false;
   double time_s = 0;  ///< until it arrived, or the end
   double path_m = 0;
-  double average_velocity = 0;  ///< path by time [m/s]
-  double min_clearance_m = 0;   ///< to people and other robots; infinity if there was nobody
-  double min_wall_clearance_m = 0;
+  double average_velocity = 0;          ///< path by time [m/s]
+  double min_clearance_m = 0;           ///< to people and other robots; infinity if there was nobody
+  double min_wall_clearance_m = 0;      ///< infinity if never below 5 m
   std::map<std::string, int> contacts;  ///< by kind, all four
   bool collision = false;
 };
