@@ -18,6 +18,7 @@ void SocialForceParams::visit(ParamVisitor& v) {
   v.number("behind", behind, {0, 1}, "", "weight of what is not seen");
   v.number("speed_limit", speed_limit, {1, 5}, "", "largest speed by the desired one");
   v.number("group_pull", group_pull, {0, 100}, "m/s^2", "pull towards the centre of one's group");
+  v.number("robot_room_m", robot_room_m, {0, 10}, "m", "more room for a robot than for a person of its size");
   v.number("fluctuation", fluctuation, {0, 10}, "m/s^2", "sd of a random acceleration");
 }
 

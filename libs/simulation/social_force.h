@@ -18,8 +18,9 @@ struct SocialForceParams {
   double view = 1.7453292519943295;  ///< phi of (8), half of the field of view [rad]
   double behind = 0.5;               ///< c of (8), weight of what is not seen
   double speed_limit = 1.3;          ///< by the desired speed, (10)
-  double group_pull = 1;     ///< pull of the group's centre [m/s^2] (Moussaid 2010, beta_2 of his (5), which is 3)
-  double fluctuation = 0.1;  ///< sd of a random acceleration that stays alike for relax_s [m/s^2]
+  double group_pull = 1;      ///< pull of the group's centre [m/s^2] (Moussaid 2010, beta_2 of his (5), which is 3)
+  double robot_room_m = 0.9;  ///< more room for a robot than for a person of its size (ours, see doc/simulation.md)
+  double fluctuation = 0.1;   ///< sd of a random acceleration that stays alike for relax_s [m/s^2]
 
   void visit(ParamVisitor& v);
   /// Farther away nobody is felt [m].
