@@ -12,7 +12,8 @@ namespace {
 
 /// The program that reads the files of a folder of share/.
 const std::map<std::string, std::string>& readerOf() {
-  static const std::map<std::string, std::string> table = {{"robots", "sidestep-localize"}};
+  static const std::map<std::string, std::string> table = {{"robots", "sidestep-localize"},
+                                                           {"scenarios", "sidestep-simulate"}};
   return table;
 }
 
@@ -22,6 +23,7 @@ TEST(Share, EachYamlLoadsAndWhatItMeansReadsBackIdentically) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(share)) {
     if (entry.path().extension() != ".yaml") continue;
     const std::string kind = entry.path().lexically_relative(share).begin()->string();
+    if (kind == "scripts") continue;  // below
     ASSERT_EQ(readerOf().count(kind), 1u) << "say in this test which program reads share/" << kind;
     const std::string program = readerOf().at(kind);
     const auto run = runShell(program + " -c '" + entry.path().string() + "' --write-config");
@@ -29,6 +31,19 @@ TEST(Share, EachYamlLoadsAndWhatItMeansReadsBackIdentically) {
     const TemporaryFolder folder;
     writeFile(folder / "all.yaml", run.out);
     EXPECT_EQ(runShell(program + " -c all.yaml --write-config", folder.path()).out, run.out) << entry.path();
+    ++files;
+  }
+  EXPECT_GT(files, 0);
+}
+
+TEST(Share, EachScriptLoads) {
+  const std::filesystem::path scripts = std::filesystem::path(SIDESTEP_SOURCE) / "share" / "scripts";
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scripts)) {
+    const TemporaryFolder folder;
+    const auto run = runShell("sidestep-rawlog degrade tests/data/whole-gzip.rawlog --script '" +
+                              entry.path().string() + "' -o '" + (folder / "out.rawlog").string() + "'");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
     ++files;
   }
   EXPECT_GT(files, 0);
