@@ -12,6 +12,8 @@
 #include "datasets/log_writer.h"
 #include "datasets/track_file.h"
 #include "evaluation/world_figure.h"
+#include "maps/map_file.h"
+#include "simulation/map_walls.h"
 #include "simulation/world_observations.h"
 
 namespace sidestep {
@@ -31,7 +33,11 @@ std::string foundFile(const std::string& name, const std::string& scenario) {
 
 WorldInputs inputsOf(const SimulateOptions& options, const WorldParams& p) {
   WorldInputs out;
-  if (!p.map.empty()) throw ConfigError("map = " + p.map + ": this build reads no maps yet; list the walls");
+  if (!p.map.empty()) {
+    ObstacleParams known_only;
+    known_only.unknown_blocks = false;
+    out.walls = wallsOf(readMap(foundFile(p.map, options.scenario)), known_only);
+  }
   if (p.tracks.empty()) return out;
   for (const auto& [id, rows] : readTracks(foundFile(p.tracks, options.scenario))) {
     RecordedTrack& track = out.tracks.emplace_back();
