@@ -4,6 +4,7 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -136,9 +137,10 @@ ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, 
   if (!options.no_picture) drawWorld(paths.figure(), folder.file("trajectory.png"));
   if (options.video) film(paths.figure(), folder);
   const WorldSummary s = summarize(world);
-  std::printf("%s: %s after %.2f s, %.2f m, closest %.2f m, %zu contacts\n", folder.file("run.rawlog").c_str(),
-              s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m, s.min_clearance_m,
-              world.contacts(0).contacts().size());
+  std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", folder.file("run.rawlog").c_str(),
+              s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m, world.contacts(0).contacts().size());
+  if (std::isfinite(s.min_clearance_m)) std::printf(", closest %.2f m", s.min_clearance_m);
+  std::printf("\n");
   return interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 

@@ -102,6 +102,40 @@ TEST(World, RobotsMeetAndOneMayBeBlindToTheFirst) {
   EXPECT_EQ(near.perceived(1).size(), 0u);
 }
 
+/// Runs in 20 that end in a contact, with a robot that goes straight on at 0.8 m/s.
+int contactsOf(PeopleParams somebody, double robot_room_m) {
+  int out = 0;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    auto p = lane();
+    p.duration_s = 20;
+    p.social_force.robot_room_m = robot_room_m;
+    p.robots["robot"].goal_x_m = 15;
+    p.robots["robot"].limits.v_max = p.robots["robot"].start_speed = 0.8;
+    somebody.start_spread_m = 0.3;
+    p.people_names = {"somebody"};
+    p.people["somebody"] = somebody;
+    World world(p, seed);
+    world.run();
+    out += summarize(world).collision;
+  }
+  return out;
+}
+
+TEST(World, PeopleWhoSeeARobotThatDoesNotYieldDoNotTouchIt) {
+  const double room_m = SocialForceParams().robot_room_m;
+  PeopleParams against, crossing, behind;
+  against.x_m = 12, against.goal_x_m = -10;
+  crossing.x_m = crossing.goal_x_m = 6, crossing.y_m = -1.34 * 6 / 0.8, crossing.goal_y_m = 20;
+  behind.x_m = -6, behind.goal_x_m = 30;
+  for (const auto& somebody : {against, crossing, behind}) {
+    EXPECT_EQ(contactsOf(somebody, room_m), 0);
+    EXPECT_GT(contactsOf(somebody, 0), 8) << "as printed, points among points, they do";
+    PeopleParams blind = somebody;
+    blind.sees_robots = false;
+    EXPECT_GT(contactsOf(blind, room_m), 8);
+  }
+}
+
 TEST(World, PerceptionEndsAtRangeFieldAndWhatHides) {
   auto p = lane();
   p.robots["robot"].planner = "stand";
