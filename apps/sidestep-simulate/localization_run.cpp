@@ -62,10 +62,11 @@ ExitCode runLocalization(const SimulateOptions& options, const SimulateConfig& c
     ProgressBar bar("simulating", options.quiet);
     auto stream = scenario.run(static_cast<uint64_t>(config.seed));
     for (SensorStep step; !interrupted() && stream.next(step);) {
-      tellObservations(step, config.localization, [&](const mrpt::obs::CObservation& o) {
-        log.write(o);
-        ++summary.written[o.sensorLabel];
-      });
+      tellObservations(step, config.localization.encoders, config.localization.gps,
+                       [&](const mrpt::obs::CObservation& o) {
+                         log.write(o);
+                         ++summary.written[o.sensorLabel];
+                       });
       note(step, scenario.truth().front().pose, summary);
       bar.update(step.time_s / config.localization.trajectory.duration_s);
     }

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   app.add_flag("-q,--quiet", o.quiet, "no progress bar");
   app.add_option("--seed", o.seed, "of the random numbers")->type_name("N");
   app.add_flag("--no-picture", o.no_picture, "do not draw trajectory.png");
+  app.add_flag("--video", o.video, "film a world: run.mp4, through ffmpeg");
   app.add_flag("--write-config", o.write_config, "print all parameters as commented YAML and exit");
   app.footer(
       "Example:\n"

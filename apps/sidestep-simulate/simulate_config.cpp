@@ -7,9 +7,19 @@
 namespace sidestep {
 
 void SimulateConfig::visit(ParamVisitor& v) {
-  v.choice("kind", kind, {"localization"}, "what the scenario is about");
+  v.choice("kind", kind, {"localization", "world"}, "what the scenario is about");
   v.integer("seed", seed, {0, 2e9}, "of the random numbers");
-  localization.visit(v);
+  if (kind == "world")
+    world.visit(v);
+  else
+    localization.visit(v);
+}
+
+void SimulateConfig::check() const {
+  if (kind == "world")
+    world.check();
+  else
+    localization.check();
 }
 
 SimulateConfig effectiveConfig(const SimulateOptions& o) {

@@ -6,6 +6,7 @@
 
 #include "core/params.h"
 #include "simulation/localization_scenario.h"
+#include "simulation/world_params.h"
 
 namespace sidestep {
 
@@ -13,7 +14,7 @@ namespace sidestep {
 struct SimulateOptions {
   std::string scenario, output = "out";
   std::optional<int> seed;
-  bool overwrite = false, quiet = false, no_picture = false, write_config = false;
+  bool overwrite = false, quiet = false, no_picture = false, video = false, write_config = false;
 };
 
 /// All that a scenario file may hold.
@@ -21,8 +22,12 @@ struct SimulateConfig {
   std::string kind = "localization";
   int seed = 1;
   LocalizationScenarioParams localization;
+  WorldParams world;
 
+  /// Shows what belongs to `kind`.
   void visit(ParamVisitor& v);
+  /// @throws ConfigError for what the ranges of single parameters do not catch.
+  void check() const;
 };
 
 /// The scenario file's values, with those of the command line over them.

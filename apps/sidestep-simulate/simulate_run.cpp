@@ -5,7 +5,9 @@
 #include <cstdio>
 
 #include "common/program.h"
+#include "evaluation/world_figure.h"
 #include "sidestep-simulate/localization_run.h"
+#include "sidestep-simulate/world_run.h"
 
 namespace sidestep {
 
@@ -18,10 +20,12 @@ ExitCode simulate(const SimulateOptions& options) {
   }
   if (options.scenario.empty())
     throw ConfigError("no SCENARIO given; for example sidestep-simulate share/scenarios/circle.yaml -o out");
-  config.localization.check();
+  config.check();
+  if (options.video && config.kind != "world") throw ConfigError("--video: only of scenarios of kind: world");
+  if (options.video) requireFfmpeg();
   const OutputFolder folder(options.output, options.overwrite);
   folder.writeConfiguration(fields);
-  return runLocalization(options, config, folder);
+  return config.kind == "world" ? runWorld(options, config, folder) : runLocalization(options, config, folder);
 }
 
 }  // namespace sidestep

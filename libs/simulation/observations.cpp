@@ -31,6 +31,8 @@ mrpt::obs::CObservationOdometry odometryOf(const SensorStep& step, const Encoder
 mrpt::obs::CObservationIMU imuOf(double time_s, const ImuSample& sample) {
   mrpt::obs::CObservationIMU o;
   o.sensorLabel = "imu";
+  o.dataIsPresent.fill(false);
+  o.rawMeasurements.fill(0);
   o.timestamp = stampOf(time_s);
   if (sample.has_yaw) o.set(mrpt::obs::IMU_YAW, sample.yaw);
   o.set(mrpt::obs::IMU_WZ, sample.yaw_rate);
@@ -82,12 +84,13 @@ mrpt::obs::CObservationGPS ggaOf(double time_s, const GpsSample& fix, const GpsE
 
 }  // namespace
 
-void tellObservations(const SensorStep& step, const LocalizationScenarioParams& params, const ObservationSink& sink) {
-  sink(odometryOf(step, params.encoders));
+void tellObservations(const SensorStep& step, const EncoderParams& encoders, const GpsErrorParams& gps,
+                      const ObservationSink& sink) {
+  sink(odometryOf(step, encoders));
   if (step.imu) sink(imuOf(step.time_s, *step.imu));
-  if (step.gps && params.gps.output == "latlon") sink(ggaOf(step.time_s, *step.gps, params.gps));
-  if (step.gps && params.gps.output == "xy")
-    sink(poseOf(step.time_s, "gps", {step.gps->x, step.gps->y, 0}, params.gps.sd_m * params.gps.sd_m, 1e3));
+  if (step.gps && gps.output == "latlon") sink(ggaOf(step.time_s, *step.gps, gps));
+  if (step.gps && gps.output == "xy")
+    sink(poseOf(step.time_s, "gps", {step.gps->x, step.gps->y, 0}, gps.sd_m * gps.sd_m, 1e3));
   sink(poseOf(step.time_s, "ground_truth", step.truth.pose, 0, 0));
 }
 

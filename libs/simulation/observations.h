@@ -15,6 +15,7 @@ inline constexpr double kSimulationStart_s = 1.6e9;
 using ObservationSink = std::function<void(const mrpt::obs::CObservation&)>;
 
 /// What a step of a scenario is in a rawlog: `odometry`, `imu`, `gps`, `ground_truth`, in this order.
-void tellObservations(const SensorStep& step, const LocalizationScenarioParams& params, const ObservationSink& sink);
+void tellObservations(const SensorStep& step, const EncoderParams& encoders, const GpsErrorParams& gps,
+                      const ObservationSink& sink);
 
 }  // namespace sidestep

@@ -41,7 +41,8 @@ void prepareForExamples(const TemporaryFolder& folder) {
 
 TEST(Programs, AreBuilt) {
   const auto all = programs();
-  for (const char* name : {"sidestep-localize", "sidestep-rawlog", "sidestep-evaluate"})
+  for (const char* name :
+       {"sidestep-evaluate", "sidestep-localize", "sidestep-plan", "sidestep-rawlog", "sidestep-simulate"})
     EXPECT_EQ(std::count(all.begin(), all.end(), name), 1) << name;
 }
 

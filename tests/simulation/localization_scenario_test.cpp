@@ -230,7 +230,7 @@ TEST(Observations, SayWhatTheStepSays) {
   p.encoders.tick_m = 0.001;
   const auto step = LocalizationScenario(p).generate(1)[500];
   std::vector<std::string> labels;
-  tellObservations(step, p, [&](const mrpt::obs::CObservation& o) {
+  tellObservations(step, p.encoders, p.gps, [&](const mrpt::obs::CObservation& o) {
     labels.push_back(o.sensorLabel);
     EXPECT_NEAR(mrpt::Clock::toDouble(o.timestamp), kSimulationStart_s + 5, 1e-6);
     if (const auto* gps = dynamic_cast<const mrpt::obs::CObservationGPS*>(&o)) {

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/planner_driver.h"
+
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "simulation/world.h"
+
+namespace sidestep {
+namespace {
+
+/// Goes straight on, and stops for whatever it is told of.
+class Shy final : public LocalPlanner {
+ public:
+  void plan(const PlanInput& input, PlanOutput& out) override {
+    EXPECT_DOUBLE_EQ(input.limits.v_max, 0.7);
+    EXPECT_DOUBLE_EQ(input.period_s, 0.05);
+    out.command = {input.moving.empty() ? input.limits.v_max : 0, 0, 0};
+  }
+  void reset() override {}
+};
+
+TEST(PlannerDriver, ALocalPlannerDrivesWithWhatIsPerceived) {
+  WorldParams p;
+  p.robot_names = {"robot"};
+  RobotParams& robot = p.robots["robot"];
+  robot.planner = "shy";
+  robot.goal_x_m = 20;
+  robot.limits.v_max = 0.7;
+  robot.perception.range_m = 3;
+  p.people_names = {"one"};
+  PeopleParams& one = p.people["one"];
+  one.model = "straight", one.speed = 0, one.x_m = one.goal_x_m = 6;
+  World world(p, 1, {}, driversOf([](const std::string& name) -> std::unique_ptr<LocalPlanner> {
+                return name == "shy" ? std::make_unique<Shy>() : nullptr;
+              }));
+  world.run();
+  // It sees the person from 3 m off, at x = 3, and brakes from 0.7 m/s at 0.5 m/s^2: 0.49 m, plus up to one period.
+  EXPECT_GT(world.robots()[0].pose.x, 3.48);
+  EXPECT_LT(world.robots()[0].pose.x, 3.49 + 0.7 * 0.06);
+  EXPECT_FALSE(summarize(world).collision);
+}
+
+TEST(PlannerDriver, OtherNamesAreTheSimpleDriversOrErrors) {
+  const auto factory = driversOf({});
+  EXPECT_NE(factory("stand", {}), nullptr);
+  EXPECT_THROW(factory("nobody", {}), ConfigError);
+}
+
+}  // namespace
+}  // namespace sidestep
