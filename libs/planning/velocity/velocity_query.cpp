@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/planning_geometry.h"
+
 namespace sidestep {
 namespace {
 
@@ -13,8 +15,6 @@ using mrpt::math::TPoint2D;
 /// Gaps between forbidden intervals that are narrower than this are no way through [m/s].
 constexpr double kNarrow = 1e-9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double dot(const TPoint2D& a, const TPoint2D& b) { return a.x * b.x + a.y * b.y; }
 
 /// Moves `t` up out of all intervals.
 template <class Intervals>

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/planning_geometry.h"
+
 namespace sidestep {
 namespace {
 
 using mrpt::math::TPoint2D;
 
-double dot(const TPoint2D& a, const TPoint2D& b) { return a.x * b.x + a.y * b.y; }
-double cross(const TPoint2D& a, const TPoint2D& b) { return a.x * b.y - a.y * b.x; }
 TPoint2D turned(const TPoint2D& a, double c, double s) { return {c * a.x - s * a.y, s * a.x + c * a.y}; }
 
 /// All velocities with n . v > c.
@@ -47,13 +47,6 @@ VelocityRegion cutCone(const TPoint2D& apex, const TPoint2D& left, const TPoint2
 /// The direction of a vector of length `d`; any direction will do for none.
 TPoint2D unit(const TPoint2D& a, double d) { return d > 0 ? a * (1 / d) : TPoint2D(1, 0); }
 
-TPoint2D nearestOf(const Segment& s) {
-  const TPoint2D ab = s.b - s.a;
-  const double length2 = dot(ab, ab);
-  const double t = length2 > 0 ? std::clamp(-dot(s.a, ab) / length2, 0.0, 1.0) : 0;
-  return s.a + ab * t;
-}
-
 }  // namespace
 
 VelocityRegion discRegion(RegionKind kind, const DiscView& disc, const TPoint2D& own, double horizon_s,
@@ -80,7 +73,7 @@ VelocityRegion discRegion(RegionKind kind, const DiscView& disc, const TPoint2D&
 }
 
 VelocityRegion wallRegion(const Segment& wall, double radius_m, double horizon_s, double separate_s) {
-  const TPoint2D nearest = nearestOf(wall);
+  const TPoint2D nearest = nearestOn(wall, {0, 0});
   const double d = nearest.norm();
   const TPoint2D axis = unit(nearest, d);
   if (d <= radius_m) return halfPlane(axis, -(radius_m - d) / separate_s);
