@@ -10,6 +10,7 @@
 #include "planning/window/clearance_scorer.h"
 #include "planning/window/heading_scorer.h"
 #include "planning/window/hrvo_heading_scorer.h"
+#include "planning/window/hrvo_speed_scorer.h"
 #include "planning/window/speed_scorer.h"
 #include "planning/window/surroundings.h"
 
@@ -26,11 +27,15 @@ struct WeightedScorer {
 /// The engine; DWA and EDWA differ in a scorer and in having an adviser.
 class WindowPlanner final : public LocalPlanner {
  public:
-  WindowPlanner(const WindowParams& params, std::unique_ptr<Scorer> heading, std::unique_ptr<HrvoSight> adviser)
-      : params_(params), adviser_(std::move(adviser)) {
+  WindowPlanner(const WindowParams& params, std::unique_ptr<Scorer> heading, std::unique_ptr<Scorer> speed)
+      : params_(params) {
     scorers_[0] = {params.heading_weight, std::move(heading)};
     scorers_[1] = {params.clearance_weight, std::make_unique<ClearanceScorer>()};
-    scorers_[2] = {params.speed_weight, std::make_unique<SpeedScorer>()};
+    scorers_[2] = {params.speed_weight, std::move(speed)};
+  }
+  void adviseBy(const HrvoParams& hrvo, double eagerness) {
+    adviser_ = std::make_unique<HrvoSight>(hrvo);
+    eagerness_ = eagerness;
   }
   void reset() override {}
 
@@ -54,7 +59,7 @@ class WindowPlanner final : public LocalPlanner {
     const double dx = target.x - input.pose.x, dy = target.y - input.pose.y;
     view_ = {c * dx + s * dy, -s * dx + c * dy, input.limits.v_max, params_.look_ahead_s, 0, 0};
     if (!adviser_) return;
-    const auto advice = adviser_->velocity(input, target, input.limits.v_max);
+    const auto advice = adviser_->velocity(input, target, eagerness_ * input.limits.v_max);
     view_.adviser_speed = advice.velocity.norm();
     const double still = 1e-3 * input.limits.v_max;  // a velocity of nearly nothing has no direction: the goal's
     const double heading = view_.adviser_speed > still ? std::atan2(advice.velocity.y, advice.velocity.x)
@@ -106,11 +111,12 @@ class WindowPlanner final : public LocalPlanner {
            std::abs(r.w) <= 2 * input.limits.turn_accel * left_s + 1e-9;
   }
 
-  /// V_r (2.22) and the best of it; if it is empty, what stays free longest.
+  /// V_r (2.22) and the best of it; if it is empty, what stays free longest, and the slowest of that.
   const Rollout& choose() {
     const auto worse = [](const Rollout& a, const Rollout& b) {
       if (a.admissible != b.admissible) return b.admissible;
       if (!a.admissible && a.free_s != b.free_s) return a.free_s < b.free_s;
+      if (!a.admissible && a.v != b.v) return a.v > b.v;
       return a.total > b.total;
     };
     return *std::max_element(rollouts_.begin(), rollouts_.end(), worse);
@@ -153,7 +159,7 @@ class WindowPlanner final : public LocalPlanner {
 
   static std::string whyNot(const Rollout& r, const Rollout& best) {
     if (r.admissible) return "costs more";
-    if (!best.admissible && r.free_s == best.free_s) return "touches as early, and costs more";
+    if (!best.admissible && r.free_s == best.free_s) return "touches as early, and is faster or costs more";
     const std::string what = r.touched < 0 ? "a static obstacle" : "moving obstacle " + std::to_string(r.touched);
     return "cannot stop before " + what + ", which it touches after " + shortestNumber(r.free_s) + " s";
   }
@@ -161,6 +167,7 @@ class WindowPlanner final : public LocalPlanner {
   WindowParams params_;
   std::array<WeightedScorer, 3> scorers_;
   std::unique_ptr<HrvoSight> adviser_;
+  double eagerness_ = 1;
   Surroundings surroundings_;
   ScoringView view_;
   std::vector<double> unit_x_, unit_y_;
@@ -189,16 +196,23 @@ void EdwaParams::visit(ParamVisitor& v) {
   v.section("hrvo", "the velocity obstacles that advise it", [&](ParamVisitor& s) { hrvo.visit(s); });
   v.choice("heading", heading, {"printed", "aligned"},
            "what is compared with the HRVO direction, see HrvoHeadingScorer");
+  v.choice("speed", speed, {"largest", "advised"}, "what vel(v, w) rewards: speed, or that of the HRVO velocity");
+  v.number("eagerness", eagerness, {0.1, 10}, "",
+           "preferred speed over the largest: above 1 turns rather than slows down");
 }
 
 std::unique_ptr<LocalPlanner> makeDwa(const WindowParams& params) {
-  return std::make_unique<WindowPlanner>(params, std::make_unique<HeadingScorer>(params.heading_after_s), nullptr);
+  return std::make_unique<WindowPlanner>(params, std::make_unique<HeadingScorer>(params.heading_after_s),
+                                         std::make_unique<SpeedScorer>());
 }
 
 std::unique_ptr<LocalPlanner> makeEdwa(const EdwaParams& params) {
-  return std::make_unique<WindowPlanner>(
-      params.window, std::make_unique<HrvoHeadingScorer>(params.window.heading_after_s, params.heading == "printed"),
-      std::make_unique<HrvoSight>(params.hrvo));
+  std::unique_ptr<Scorer> speed = std::make_unique<SpeedScorer>();
+  if (params.speed == "advised") speed = std::make_unique<HrvoSpeedScorer>();
+  auto heading = std::make_unique<HrvoHeadingScorer>(params.window.heading_after_s, params.heading == "printed");
+  auto planner = std::make_unique<WindowPlanner>(params.window, std::move(heading), std::move(speed));
+  planner->adviseBy(params.hrvo, params.eagerness);
+  return planner;
 }
 
 }  // namespace sidestep
