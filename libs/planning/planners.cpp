@@ -43,4 +43,9 @@ std::unique_ptr<LocalPlanner> makeLocalPlanner(const std::string& name, const Lo
                     (near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
+std::unique_ptr<LocalPlanner> makeLocalPlanner(const std::string& name) {
+  const LocalPlannerParams defaults;
+  return makeLocalPlanner(name, defaults);
+}
+
 }  // namespace sidestep

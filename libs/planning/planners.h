@@ -25,6 +25,8 @@ std::vector<std::string> localPlannerNames();
 
 /// The planner of that name. Adding one: a line in the table of planners.cpp, a section above.
 /// @throws ConfigError for an unknown name, with the nearest known one
-std::unique_ptr<LocalPlanner> makeLocalPlanner(const std::string& name, const LocalPlannerParams& params = {});
+std::unique_ptr<LocalPlanner> makeLocalPlanner(const std::string& name, const LocalPlannerParams& params);
+/// The same with default parameters.
+std::unique_ptr<LocalPlanner> makeLocalPlanner(const std::string& name);
 
 }  // namespace sidestep

@@ -120,8 +120,9 @@ inline EncounterResult runEncounter(Encounter e, const Watch& watch = {}) {
       }
       const auto at = [](const Actor& a) { return mrpt::math::TPoint2D(a.pose.x, a.pose.y); };
       for (size_t j = 1; j < e.actors.size(); ++j)
-        result.clearance_m = std::min(result.clearance_m, closestApproach(at(before[0]), at(e.actors[0]), at(before[j]),
-                                                                          at(e.actors[j])) - 2 * R);
+        result.clearance_m =
+            std::min(result.clearance_m,
+                     closestApproach(at(before[0]), at(e.actors[0]), at(before[j]), at(e.actors[j])) - 2 * R);
     }
     result.collided = result.clearance_m < 0;
     result.time_s += e.period_s;
@@ -149,8 +150,8 @@ inline LocalPlannerParams section41() {
   return p;
 }
 
-/// Scenarios 1-4 of section 4.1 with starts shifted by up to `shift_m`; the start places of obstacles, which the text does
-/// not give, are such that all would meet at the centre.
+/// Scenarios 1-4 of section 4.1 with starts shifted by up to `shift_m`; the start places of obstacles, which the text
+/// does not give, are such that all would meet at the centre.
 /// @param scenario  1 one oncoming; 2 two oncoming; 3 two crossing; 4 two crossing and one oncoming
 inline Encounter section41Encounter(int scenario, const std::string& robot, const std::string& others, uint64_t seed,
                                     double shift_m = 0.25) {
