@@ -22,6 +22,13 @@ void addLabels(CLI::App& sub, sidestep::RawlogOptions& o) {
       ->type_name("KIND=LABEL");
 }
 
+void addOutput(CLI::App& sub, sidestep::RawlogOptions& o, const std::string& otherwise) {
+  sub.add_option("-o,--output", o.output, "log to write; default " + otherwise)->type_name("FILE");
+  sub.add_flag("-w,--overwrite", o.overwrite, "write over a file that is there");
+}
+
+constexpr const char* kRecovered = "recovered.rawlog";
+constexpr const char* kDegraded = "degraded.rawlog";
 constexpr const char* kLog = "/usr/share/mrpt/datasets/uwb_ro-localization_demo.rawlog";
 
 std::string example(const std::string& command, const std::string& rest = "") {
@@ -35,7 +42,9 @@ int main(int argc, char** argv) {
   using namespace sidestep;
   RawlogOptions o;
   Command chosen = nullptr;
-  CLI::App app("Looks after rawlogs: what is in them, whether they are whole, what can be saved.", "sidestep-rawlog");
+  CLI::App app(
+      "Looks after rawlogs: what is in them, whether they are whole, what can be saved, what if less were there.",
+      "sidestep-rawlog");
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done, 2 usage, 3 input missing, 4 damaged or cut short, 130 interrupted.\n" +
              example("info"));
@@ -45,10 +54,18 @@ int main(int argc, char** argv) {
       addCommand(app, "recover", "copy what can be read of a damaged log", o, recoverDamagedLog, chosen);
   addLabels(*info, o);
   addLabels(*check, o);
-  recover->add_option("-o,--output", o.output, "log to write")->type_name("FILE")->capture_default_str();
-  recover->add_flag("-w,--overwrite", o.overwrite, "write over a file that is there");
+  CLI::App* degrade = addCommand(app, "degrade", "do to a log what a script says: outages, delays, noise, spikes", o,
+                                 degradeLog, chosen);
+  addLabels(*degrade, o);
+  degrade->add_option("--script", o.script, "what goes wrong, when and where (YAML)")->type_name("FILE")->required();
+  addOutput(*recover, o, kRecovered);
+  addOutput(*degrade, o, kDegraded);
   info->footer(example("info"));
   check->footer(example("check"));
   recover->footer(example("recover", " -o recovered.rawlog"));
-  return runProgram(argc, argv, app, [&] { return chosen(o); });
+  degrade->footer(example("degrade", " \\\n    --script share/scripts/outage.yaml -o degraded.rawlog"));
+  return runProgram(argc, argv, app, [&] {
+    if (o.output.empty()) o.output = chosen == degradeLog ? kDegraded : kRecovered;
+    return chosen(o);
+  });
 }

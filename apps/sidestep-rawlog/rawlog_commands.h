@@ -11,7 +11,7 @@ namespace sidestep {
 /// What the command line says.
 struct RawlogOptions {
   std::string log;
-  std::string output = "recovered.rawlog";
+  std::string output, script;
   std::vector<std::string> labels;  ///< "kind=label"
   bool json = false, quiet = false, overwrite = false;
 };
@@ -22,5 +22,7 @@ ExitCode showLog(const RawlogOptions& options);
 ExitCode checkLog(const RawlogOptions& options);
 /// Writes what can be read of the log to `output`. @return kInputCorrupt if that is nothing.
 ExitCode recoverDamagedLog(const RawlogOptions& options);
+/// Writes the log to `output` with what `script` does to it.
+ExitCode degradeLog(const RawlogOptions& options);
 
 }  // namespace sidestep

@@ -121,4 +121,21 @@ std::string recoveryJson(const RecoveryReport& r, const std::string& out) {
                {"first_damage", r.first_damage}});
 }
 
+std::string degradeText(const DegradeReport& r, const std::string& out) {
+  std::string text = format("%llu of %llu observations written to ", static_cast<unsigned long long>(r.written),
+                            static_cast<unsigned long long>(r.read)) +
+                     out + "\n";
+  for (const auto& e : r.events)
+    text += "  " + printable(e.name) +
+            format(": met %llu, hit %llu\n", static_cast<unsigned long long>(e.met),
+                   static_cast<unsigned long long>(e.hit));
+  return text;
+}
+
+std::string degradeJson(const DegradeReport& r, const std::string& out) {
+  Json json{{"output", out}, {"read", r.read}, {"written", r.written}, {"events", Json::object()}};
+  for (const auto& e : r.events) json["events"][e.name] = {{"met", e.met}, {"hit", e.hit}};
+  return dump(json);
+}
+
 }  // namespace sidestep

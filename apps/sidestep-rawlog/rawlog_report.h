@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <string>
+#include <vector>
 
+#include "datasets/log_degrader.h"
 #include "datasets/log_health.h"
 #include "datasets/log_recovery.h"
 
@@ -18,5 +20,13 @@ std::string healthJson(const LogHealth& health);
 
 std::string recoveryText(const RecoveryReport& report, const std::string& out);
 std::string recoveryJson(const RecoveryReport& report, const std::string& out);
+
+/// What degrading a log came to.
+struct DegradeReport {
+  uint64_t read = 0, written = 0;
+  std::vector<LogDegrader::EventCount> events;
+};
+std::string degradeText(const DegradeReport& report, const std::string& out);
+std::string degradeJson(const DegradeReport& report, const std::string& out);
 
 }  // namespace sidestep

@@ -96,6 +96,25 @@ class YamlWriter final : public ParamVisitor {
     fields(*this);
     indent_.resize(indent_.size() - 2);
   }
+  void groups(const std::string& key, std::vector<std::string>& names, const std::string& m,
+              const std::function<void(const std::string&, ParamVisitor&)>& fields) override {
+    if (names.empty()) return line(key, "{}", m);
+    section(key, m, [&](ParamVisitor& v) {
+      for (const auto& name : names) {
+        out_ << indent_ << name << ":\n";
+        indent_ += "  ";
+        fields(name, v);
+        indent_.resize(indent_.size() - 2);
+      }
+    });
+  }
+  void overlay(const std::string& key, std::string& yaml, const std::string& m) override {
+    if (yaml.find_first_not_of(" \n") == std::string::npos) return line(key, "{}", m);
+    out_ << indent_ << key << ":  # " << m << "\n";
+    std::istringstream lines(yaml);
+    for (std::string text; std::getline(lines, text);)
+      if (!text.empty()) out_ << indent_ << "  " << text << "\n";
+  }
   std::string str() const { return out_.str(); }
 
  private:
@@ -141,6 +160,12 @@ class MarkdownWriter final : public ParamVisitor {
     fields(*this);
     prefix_ = outer;
   }
+  void groups(const std::string& key, std::vector<std::string>&, const std::string& m,
+              const std::function<void(const std::string&, ParamVisitor&)>& fields) override {
+    row(key, "", "", "groups by name", m);
+    section(key + ".NAME", m, [&](ParamVisitor& v) { fields("", v); });
+  }
+  void overlay(const std::string& key, std::string&, const std::string& m) override { row(key, "", "", "a group", m); }
   std::string str() const { return "| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n" + out_.str(); }
 
  private:

@@ -39,6 +39,13 @@ class ParamVisitor {
   /// A nested group.
   virtual void section(const std::string& key, const std::string& meaning,
                        const std::function<void(ParamVisitor&)>& fields) = 0;
+  /// Groups under keys that the file's author chooses. A reader makes `names` those of the file, in its order, if it has
+  /// `key`; then each visitor shows the fields of each name.
+  virtual void groups(const std::string& key, std::vector<std::string>& names, const std::string& meaning,
+                      const std::function<void(const std::string& name, ParamVisitor&)>& fields) = 0;
+  /// A group kept as YAML, to be laid over other parameters later (`readYamlText`). As read it starts with as many line
+  /// breaks as lines stood before it, so that errors name the right line.
+  virtual void overlay(const std::string& key, std::string& yaml, const std::string& meaning) = 0;
 
   /// Radians in memory, degrees in the file; `key` must end in `_deg`, `range_deg` is in degrees.
   void angle(const std::string& key, double& radians, Range range_deg, const std::string& meaning) {

@@ -108,6 +108,21 @@ class YamlReader final : public ParamVisitor {
     fields(reader);
     reader.finish();
   }
+  void groups(const std::string& key, std::vector<std::string>& names, const std::string&,
+              const std::function<void(const std::string&, ParamVisitor&)>& fields) override {
+    const auto n = take(key);
+    if (n) names.clear();
+    YamlReader all(n ? *n : YAML::Node(), file_, prefix_ + key + ".");
+    if (n && n->IsMap())
+      for (const auto& item : *n) names.push_back(item.first.as<std::string>());
+    for (const auto& name : names) all.section(name, "", [&](ParamVisitor& v) { fields(name, v); });
+  }
+  void overlay(const std::string& key, std::string& yaml, const std::string&) override {
+    const auto n = take(key);
+    if (!n) return;
+    if (!n->IsMap() && !n->IsNull()) fail(*n, prefix_ + key, "is not a map of keys");
+    yaml = std::string(static_cast<size_t>(std::max(0, n->Mark().line)), '\n') + YAML::Dump(*n) + "\n";
+  }
 
   /// All keys that were not asked for are unknown.
   void finish() const {

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sidestep-simulate/simulate_config.h"
+
+#include "core/errors.h"
+
+namespace sidestep {
+
+void SimulateConfig::visit(ParamVisitor& v) {
+  v.choice("kind", kind, {"localization", "world"}, "what the scenario is about");
+  v.integer("seed", seed, {0, 2e9}, "of the random numbers");
+  if (kind == "world")
+    world.visit(v);
+  else
+    localization.visit(v);
+}
+
+void SimulateConfig::check() const {
+  if (kind == "world")
+    world.check();
+  else
+    localization.check();
+}
+
+SimulateConfig effectiveConfig(const SimulateOptions& o) {
+  SimulateConfig c;
+  if (!o.scenario.empty()) readYaml(o.scenario, [&](ParamVisitor& v) { c.visit(v); });
+  if (o.seed && *o.seed < 0) throw ConfigError("--seed " + std::to_string(*o.seed) + ": must not be negative");
+  if (o.seed) c.seed = *o.seed;
+  return c;
+}
+
+}  // namespace sidestep

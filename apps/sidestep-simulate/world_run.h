@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "common/program.h"
+#include "sidestep-simulate/simulate_config.h"
+
+namespace sidestep {
+
+/// Runs a world scenario into `folder`: run.rawlog, trajectory.png, metrics.json, run.mp4 if asked for.
+ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder);
+
+}  // namespace sidestep

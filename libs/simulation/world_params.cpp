@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/world_params.h"
+
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace sidestep {
+
+void RobotParams::visit(ParamVisitor& v) {
+  v.number("x_m", x_m, {-1e5, 1e5}, "m", "start");
+  v.number("y_m", y_m, {-1e5, 1e5}, "m", "start");
+  v.angle("yaw_deg", yaw, {-360, 360}, "start");
+  v.number("start_shift_m", start_shift_m, {0, 1e5}, "m", "start: at random within so much in x and y");
+  v.number("start_speed", start_speed, {-50, 50}, "m/s", "speed at the start");
+  v.number("goal_x_m", goal_x_m, {-1e5, 1e5}, "m", "goal");
+  v.number("goal_y_m", goal_y_m, {-1e5, 1e5}, "m", "goal");
+  v.number("goal_tolerance_m", goal_tolerance_m, {0.001, 100}, "m", "so near, the goal is reached");
+  v.text("planner", planner, "who drives: straight (turns to the goal and goes), stand, or a local planner");
+  v.flag("sees_robot", sees_robot, "false: drives as if the first robot were not there");
+  v.section("limits", "what the base can do", [this](ParamVisitor& w) { limits.visit(w); });
+  v.section("drive", "how the base answers to orders", [this](ParamVisitor& w) { drive.visit(w); });
+  v.section("perception", "whom it perceives", [this](ParamVisitor& w) { perception.visit(w); });
+}
+
+void WallParams::visit(ParamVisitor& v) {
+  v.table("points", {"x", "y"}, points, "corners [m]");
+  v.flag("closed", closed, "the last corner joins the first");
+}
+
+WorldParams::WorldParams() {
+  encoders.v_sd = encoders.w_sd = 0;
+  imu.rate_hz = 0;
+  gps.rate_hz = 0;
+}
+
+void WorldParams::visit(ParamVisitor& v) {
+  v.number("step_s", step_s, {1e-4, 0.1}, "s", "of the simulation: motion, contacts, clearance");
+  v.number("control_period_s", control_period_s, {1e-4, 2}, "s",
+           "between two orders to a robot; a whole number of steps");
+  v.number("duration_s", duration_s, {0.01, 1e5}, "s", "the run ends then, if the first robot has not arrived before");
+  v.number("people_record_hz", people_record_hz, {0, 1000}, "Hz", "how often people are written to the log; 0: never");
+  v.text("map", map, "walls from a map file (ROS map.yaml); empty: none");
+  v.text("tracks", tracks, "recorded people, a CSV of t,id,x,y; empty: none");
+  v.number("tracks_from_s", tracks_from_s, {-1e9, 1e9}, "s", "time of that file at which the run begins");
+  v.groups("walls", wall_names, "walls, by name",
+           [this](const std::string& name, ParamVisitor& w) { walls[name].visit(w); });
+  v.groups("robots", robot_names, "robots, by name; the first is the one under test",
+           [this](const std::string& name, ParamVisitor& w) { robots[name].visit(w); });
+  v.groups("people", people_names, "people, by name of a person or a crowd",
+           [this](const std::string& name, ParamVisitor& w) { people[name].visit(w); });
+  v.section("social_force", "(Helbing & Molnar 1995)", [this](ParamVisitor& w) { social_force.visit(w); });
+  v.section("encoders", "the first robot's", [this](ParamVisitor& w) { encoders.visit(w); });
+  v.section("imu", "the first robot's", [this](ParamVisitor& w) { imu.visit(w); });
+  v.section("gps", "the first robot's", [this](ParamVisitor& w) { gps.visit(w); });
+  v.section("laser", "the first robot's", [this](ParamVisitor& w) { laser.visit(w); });
+}
+
+void WorldParams::check() const {
+  const double steps = control_period_s / step_s;
+  if (steps < 1 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6)
+    throw ConfigError("control_period_s = " + shortestNumber(control_period_s) +
+                      " s: is no whole number of step_s = " + shortestNumber(step_s) + " s");
+  if (robot_names.empty()) throw ConfigError("robots: there is none; name at least one");
+  for (const auto& name : wall_names)
+    if (walls.at(name).points.size() < 2) throw ConfigError("walls." + name + ".points: has fewer than two corners");
+  for (const auto& [rate, key] : {std::pair{imu.rate_hz, "imu"}, {gps.rate_hz, "gps"}, {laser.rate_hz, "laser"}})
+    if (rate * step_s > 1 + 1e-6)
+      throw ConfigError(std::string(key) + ".rate_hz: faster than one reading a step; make step_s shorter");
+}
+
+}  // namespace sidestep
