@@ -42,6 +42,7 @@ void BM_HrvoQuery(benchmark::State& state) {
   HrvoParams params;
   params.neighbours = 1000;
   params.horizon_s = 1e6;
+  params.keep_right = 0;
   Hrvo hrvo(params);
   Random random(1);
   std::vector<Crowd> crowds;

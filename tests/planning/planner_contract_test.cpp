@@ -174,7 +174,7 @@ TEST(LocalPlanners, StayFiniteWhereObstaclesOverlapTheRobotOrEachOther) {
 TEST(LocalPlanners, MirroredWorldsGetMirroredCommands) {
   Random random(4);
   LocalPlannerParams params;
-  params.edwa.hrvo.keep_right = 0;  // a rule of the road has no mirror image
+  params.edwa.hrvo.keep_right = params.hrvo.hrvo.keep_right = 0;  // a rule of the road has no mirror image
   for (const auto& name : kNames) {
     int compared = 0;
     for (int i = 0; i < 200; ++i) {

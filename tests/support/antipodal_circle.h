@@ -18,7 +18,7 @@ struct CircleSetup {
 
   static HrvoParams defaultHrvo() {
     HrvoParams p;
-    p.margin_m = 0;
+    p.margin_m = p.keep_right = 0;
     p.neighbours = 50;
     p.horizon_s = 1e6;
     return p;

@@ -27,6 +27,8 @@ void HrvoParams::visit(ParamVisitor& v) {
   v.number("velocity_sd", velocity_sd, {0, 5}, "m/s", "doubt about moving obstacles' velocities: widens their cones");
   v.number("share", share, {0, 1}, "", "of the avoiding that is the robot's; 1: obstacles are taken to be blind");
   v.number("keep_right", keep_right, {0, 5}, "m/s", "how fast it must already be passing left to do so");
+  v.number("eagerness", eagerness, {0.1, 100}, "",
+           "preferred over largest speed; above 1 rather turns than slows down");
   v.integer("neighbours", neighbours, {1, 100000}, "the nearest moving obstacles that count");
   v.flag("shield", shield, "never order a velocity that could end in an obstacle within the period");
 }

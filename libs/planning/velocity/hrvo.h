@@ -16,11 +16,12 @@ struct HrvoParams {
   double horizon_s = 8;
   double wall_horizon_s = 2;
   double separate_s = 1;
-  double margin_m = 0.1;
+  double margin_m = 0.3;
   double sigmas = 1;
   double velocity_sd = 0;  // m/s
   double share = 0.5;
-  double keep_right = 0;  // m/s
+  double keep_right = 0.1;  // m/s
+  double eagerness = 5;
   int neighbours = 20;
   bool shield = true;
 

@@ -32,7 +32,7 @@ HrvoAnswer HrvoSight::velocity(const PlanInput& input, const TPoint2D& target, d
   addNearest();
   const TPoint2D way = target - here;
   const double distance = way.norm();
-  return hrvo_.solve(distance > 0 ? way * (speed / distance) : TPoint2D(0, 0), input.limits.v_max);
+  return hrvo_.solve(distance > 0 ? way * (params_.eagerness * speed / distance) : TPoint2D(0, 0), speed);
 }
 
 void HrvoSight::addPoints(const PlanInput& input) {

@@ -16,7 +16,9 @@ namespace sidestep {
 class HrvoSight {
  public:
   explicit HrvoSight(const HrvoParams& params);
-  /// (2.29) with the preferred velocity (2.30): at `speed` towards `target`.
+  /// (2.29), not faster than `speed`, with the preferred velocity (2.30) towards `target`: `eagerness` times that
+  /// speed. The larger it is, the more the answer goes by the progress to the target, and the less by its likeness to
+  /// the way there.
   HrvoAnswer velocity(const PlanInput& input, const mrpt::math::TPoint2D& target, double speed);
   Hrvo& model() { return hrvo_; }
 

@@ -13,10 +13,11 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-/// The robot and what it keeps away from, as one radius; less where it is nearer already.
+/// The robot and what it keeps away from, as one radius; less where it is nearer already, so that only coming nearer
+/// still counts, and a robot that was touched may leave.
 double radiusWith(double bare, double margin, double distance_now) {
   constexpr double kSlack_m = 1e-3;
-  return std::max(bare, std::min(bare + margin, distance_now - kSlack_m));
+  return std::min(bare + margin, distance_now - kSlack_m);
 }
 
 double largestSd(const Eigen::Matrix2d& P) {

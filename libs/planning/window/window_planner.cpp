@@ -33,10 +33,7 @@ class WindowPlanner final : public LocalPlanner {
     scorers_[1] = {params.clearance_weight, std::make_unique<ClearanceScorer>()};
     scorers_[2] = {params.speed_weight, std::move(speed)};
   }
-  void adviseBy(const HrvoParams& hrvo, double eagerness) {
-    adviser_ = std::make_unique<HrvoSight>(hrvo);
-    eagerness_ = eagerness;
-  }
+  void adviseBy(const HrvoParams& hrvo) { adviser_ = std::make_unique<HrvoSight>(hrvo); }
   void reset() override {}
 
   void plan(const PlanInput& input, PlanOutput& out) override {
@@ -59,7 +56,7 @@ class WindowPlanner final : public LocalPlanner {
     const double dx = target.x - input.pose.x, dy = target.y - input.pose.y;
     view_ = {c * dx + s * dy, -s * dx + c * dy, input.limits.v_max, params_.look_ahead_s, 0, 0};
     if (!adviser_) return;
-    const auto advice = adviser_->velocity(input, target, eagerness_ * input.limits.v_max);
+    const auto advice = adviser_->velocity(input, target, input.limits.v_max);
     view_.adviser_speed = advice.velocity.norm();
     const double still = 1e-3 * input.limits.v_max;  // a velocity of nearly nothing has no direction: the goal's
     const double heading = view_.adviser_speed > still ? std::atan2(advice.velocity.y, advice.velocity.x)
@@ -167,7 +164,6 @@ class WindowPlanner final : public LocalPlanner {
   WindowParams params_;
   std::array<WeightedScorer, 3> scorers_;
   std::unique_ptr<HrvoSight> adviser_;
-  double eagerness_ = 1;
   Surroundings surroundings_;
   ScoringView view_;
   std::vector<double> unit_x_, unit_y_;
@@ -197,8 +193,6 @@ void EdwaParams::visit(ParamVisitor& v) {
   v.choice("heading", heading, {"printed", "aligned"},
            "what is compared with the HRVO direction, see HrvoHeadingScorer");
   v.choice("speed", speed, {"largest", "advised"}, "what vel(v, w) rewards: speed, or that of the HRVO velocity");
-  v.number("eagerness", eagerness, {0.1, 10}, "",
-           "preferred speed over the largest: above 1 turns rather than slows down");
 }
 
 std::unique_ptr<LocalPlanner> makeDwa(const WindowParams& params) {
@@ -211,7 +205,7 @@ std::unique_ptr<LocalPlanner> makeEdwa(const EdwaParams& params) {
   if (params.speed == "advised") speed = std::make_unique<HrvoSpeedScorer>();
   auto heading = std::make_unique<HrvoHeadingScorer>(params.window.heading_after_s, params.heading == "printed");
   auto planner = std::make_unique<WindowPlanner>(params.window, std::move(heading), std::move(speed));
-  planner->adviseBy(params.hrvo, params.eagerness);
+  planner->adviseBy(params.hrvo);
   return planner;
 }
 

@@ -30,21 +30,11 @@ struct WindowParams {
 /// EDWA: the window, and where its heading comes from.
 struct EdwaParams {
   WindowParams window;
-  HrvoParams hrvo = adviserDefaults();
+  HrvoParams hrvo;
   std::string heading = "aligned";
   std::string speed = "advised";
-  double eagerness = 5;
 
   void visit(ParamVisitor& v);
-
- private:
-  /// More than the window's own margin: a robot that turns slowly follows the advice late; and a rule for head-on.
-  static HrvoParams adviserDefaults() {
-    HrvoParams p;
-    p.margin_m = 0.3;
-    p.keep_right = 0.1;
-    return p;
-  }
 };
 
 /// The dynamic window approach (2.22)-(2.27) (Fox 1997): of the (v, w) that can be reached within a period and from
