@@ -77,8 +77,12 @@ TPoint2D targetPoint(const PlanInput& input, double lookahead_m) {
 }
 
 double goalSpeed(const PlanInput& input) {
-  const double d = std::hypot(input.goal.x - input.pose.x, input.goal.y - input.pose.y);
-  return std::min(input.limits.v_max, std::sqrt(2 * input.limits.brake * d));
+  constexpr double kForRamps = 0.8;
+  const double dx = input.goal.x - input.pose.x, dy = input.goal.y - input.pose.y, d = std::hypot(dx, dy);
+  const double bearing = std::min(std::abs(wrapped(std::atan2(dy, dx) - input.pose.phi)), M_PI / 2);
+  const double turning = kForRamps * input.limits.w_max * d, stopping = std::sqrt(2 * input.limits.brake * d);
+  const double fastest = std::min(input.limits.v_max, stopping);
+  return turning < 2 * std::sin(bearing) * fastest ? turning / (2 * std::sin(bearing)) : fastest;
 }
 
 void beginOutput(PlanOutput& out) {

@@ -28,7 +28,9 @@ ReachableTwists reachableTwists(const PlanInput& input);
 /// The goal, or a point of the path `lookahead_m` ahead of the point of the path that is nearest to the robot.
 mrpt::math::TPoint2D targetPoint(const PlanInput& input, double lookahead_m);
 
-/// The largest speed from which the robot can stop at the goal: sqrt(2 brake distance), at most v_max.
+/// The largest speed at which the robot still comes to the goal, at most v_max: it can stop there, sqrt(2 brake d), and it
+/// can turn there, w_max d / (2 sin(bearing)), less a fifth for ramps; a goal inside the turning circle would be circled
+/// for ever. Abeam and behind counts as abeam.
 double goalSpeed(const PlanInput& input);
 
 /// Clears `out` for a new cycle, keeping its memory.

@@ -49,6 +49,18 @@ TEST(Section41, EdwaKeepsFartherAwayThanDwaDoes) {
   }
 }
 
+TEST(Section41, AGoalInsideTheTurningCircleIsReachedAllTheSame) {
+  // Starts at full speed, the goal abeam 2 m away; the turning circle has 2.86 m.
+  for (const std::string name : {"dwa", "edwa", "hrvo"}) {
+    auto e = section41Encounter(1, name, "straight", 1, 0);
+    e.actors.resize(1);
+    e.actors[0].pose = {0, 0, 0};
+    e.actors[0].goal = {0, 2};
+    e.actors[0].v = 1;
+    EXPECT_TRUE(runEncounter(e).reached) << name;
+  }
+}
+
 TEST(Section41, TheSameSeedGivesTheSameRun) {
   const auto a = runEncounter(section41Encounter(4, "edwa", "edwa", 7)),
              b = runEncounter(section41Encounter(4, "edwa", "edwa", 7));
