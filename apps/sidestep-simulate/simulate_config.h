@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/params.h"
+#include "planning/planners.h"
 #include "simulation/localization_scenario.h"
 #include "simulation/world_params.h"
 
@@ -23,6 +24,7 @@ struct SimulateConfig {
   int seed = 1;
   LocalizationScenarioParams localization;
   WorldParams world;
+  LocalPlannerParams planners;
 
   /// Shows what belongs to `kind`.
   void visit(ParamVisitor& v);

@@ -12,6 +12,7 @@
 
 #include "datasets/log_writer.h"
 #include "datasets/track_file.h"
+#include "evaluation/planner_driver.h"
 #include "evaluation/world_figure.h"
 #include "maps/map_file.h"
 #include "simulation/map_walls.h"
@@ -110,7 +111,8 @@ void film(const WorldFigure& figure, const OutputFolder& folder) {
 }  // namespace
 
 ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder) {
-  World world(config.world, static_cast<uint64_t>(config.seed), inputsOf(options, config.world));
+  World world(config.world, static_cast<uint64_t>(config.seed), inputsOf(options, config.world),
+              plannerDrivers(config.planners));
   LogWriter log(folder.file("run.rawlog"), commandLine());
   WorldReporter reporter(world);
   Paths paths(world);

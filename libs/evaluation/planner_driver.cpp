@@ -7,37 +7,35 @@ namespace {
 
 class PlannerDriver final : public Driver {
  public:
-  PlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits) : planner_(std::move(planner)) {
-    input_.limits = limits;
-  }
+  PlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits)
+      : planner_(std::move(planner)), limits_(limits) {}
+
   mrpt::math::TTwist2D drive(const DriverView& view) override {
-    input_.time_s = view.time_s;
-    input_.pose = view.pose;
-    input_.twist = view.twist;
-    input_.goal = view.goal;
-    input_.walls = view.walls;
-    input_.moving = view.moving;
-    input_.period_s = view.period_s;
-    planner_->plan(input_, output_);
-    return output_.command;
+    PlanInput input;
+    input.time_s = view.time_s;
+    input.pose = view.pose;
+    input.twist = view.twist;
+    input.goal = view.goal;
+    input.walls = view.walls;
+    input.moving = view.moving;
+    input.limits = limits_;
+    input.period_s = view.period_s;
+    planner_->plan(input, out_);
+    return out_.command;
   }
 
  private:
   std::unique_ptr<LocalPlanner> planner_;
-  PlanInput input_;
-  PlanOutput output_;
+  RobotLimits limits_;
+  PlanOutput out_;
 };
 
 }  // namespace
 
-std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits) {
-  return std::make_unique<PlannerDriver>(std::move(planner), limits);
-}
-
-DriverFactory driversOf(PlannerFactory planners) {
-  return [planners = std::move(planners)](const std::string& name, const RobotLimits& limits) {
-    auto planner = planners ? planners(name) : nullptr;
-    return planner ? makePlannerDriver(std::move(planner), limits) : makeSimpleDriver(name, limits);
+DriverFactory plannerDrivers(const LocalPlannerParams& params) {
+  return [params](const std::string& name, const RobotLimits& limits) -> std::unique_ptr<Driver> {
+    if (name == "straight" || name == "stand") return makeSimpleDriver(name, limits);
+    return std::make_unique<PlannerDriver>(makeLocalPlanner(name, params), limits);
   };
 }
 

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planning/window/heading_scorer.h"
+
+#include "planning/planning_geometry.h"
+
+namespace sidestep {
+
+double HeadingScorer::score(const Rollout& rollout, const ScoringView& view) const {
+  const ArcPose p = onArc(rollout.v, rollout.w, after_s_);
+  return 1 - std::abs(wrapped(std::atan2(view.goal_y - p.y, view.goal_x - p.x) - p.heading)) / M_PI;
+}
+
+}  // namespace sidestep

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planning/window/hrvo_heading_scorer.h"
+
+#include "planning/planning_geometry.h"
+
+namespace sidestep {
+
+double HrvoHeadingScorer::score(const Rollout& rollout, const ScoringView& view) const {
+  const ArcPose p = onArc(rollout.v, rollout.w, after_s_);
+  const double compared = printed_ ? std::atan2(view.goal_y - p.y, view.goal_x - p.x) : p.heading;
+  return 1 - std::abs(wrapped(compared - view.adviser_heading)) / M_PI;
+}
+
+}  // namespace sidestep
