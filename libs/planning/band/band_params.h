@@ -29,10 +29,10 @@ struct BandParams {
   double distance_m = 0.5;         ///< wished clearance, edge to edge
   double distance_least_m = 0.05;  ///< least clearance that a band may have; nearer is a contact
   double limit_share = 0.99;       ///< of the limits that the optimizer keeps to; the rest is for what is left over
-  int iterations_cold = 12;        ///< of Levenberg-Marquardt, for a band from scratch
+  int iterations_cold = 14;        ///< of Levenberg-Marquardt, for a band from scratch
   int iterations_warm = 5;         ///< for one from the last plan
   double tolerance = 2e-3;         ///< relative decrease of the cost below which the optimizer stops
-  double damping = 1e-3;           ///< first lambda of Levenberg-Marquardt
+  double damping = 0.3;            ///< first lambda of Levenberg-Marquardt
 
   void visit(ParamVisitor& v);
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSpot_rad = 1.2;  ///< a larger turn than this is made on the spot
 constexpr double kDense_m = 0.15;  ///< spacing of the way while it is smoothed
-constexpr int kSmoothings = 4;
+constexpr int kSmoothings = 15;
 
 /// Shortest time to turn by `angle` from rest to rest.
 double turnTime(double angle, const RobotLimits& limits) {

@@ -17,7 +17,7 @@ struct ExplorationParams {
   double column_m = 0.2;        ///< width of the graph's columns
   double detour_share = 0.6;    ///< how far beside the straight line the graph reaches, of its length
   double detour_least_m = 2.5;  ///< and at least
-  double narrow_weight = 4;     ///< cost of a gap too narrow for the wished clearance, 1/m^2 per metre of way
+  double narrow_weight = 12;    ///< cost of a gap too narrow for the wished clearance, 1/m^2 per metre of way
 
   void visit(ParamVisitor& v);
 };
