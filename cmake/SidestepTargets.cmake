@@ -23,7 +23,8 @@ function(configure_library target)
   target_compile_definitions(${target} PRIVATE SIDESTEP_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${target}
     PUBLIC mrpt::obs mrpt::maps mrpt::topography Eigen3::Eigen
-    PRIVATE $<BUILD_INTERFACE:sidestep_warnings> yaml-cpp nlohmann_json::nlohmann_json ZLIB::ZLIB Threads::Threads)
+    PRIVATE $<BUILD_INTERFACE:sidestep_warnings> yaml-cpp nlohmann_json::nlohmann_json ZLIB::ZLIB Threads::Threads
+      $<BUILD_INTERFACE:sidestep_opencv> $<BUILD_INTERFACE:sidestep_ompl>)
 endfunction()
 
 # add_app(NAME): the program built from apps/NAME/*.cpp, installed beside the others.
