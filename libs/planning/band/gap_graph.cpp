@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planning/band/distance_of_field.h"
+#include "maps/distance_field.h"
 
 namespace sidestep {
 namespace {
@@ -94,7 +94,7 @@ void GapGraph::blockField(const Query& query) {
   for (int c = 0; c < columns_; ++c)
     for (double v = -side_; v < side_; v += width_) {
       const auto p = query.frame.point(columnAt(c), v);
-      if (distanceOfField(*query.obstacles->field(), p.x, p.y) < query.keep_out)
+      if (query.obstacles->field()->clearance(p.x, p.y) < query.keep_out)
         blocked_.push_back({c, v - width_ / 2, v + width_ / 2});
     }
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planning/band/obstacle_view.h"
 
+#include "maps/distance_field.h"
+
 namespace sidestep {
 namespace {
 
@@ -113,6 +115,10 @@ std::span<const MovingItem> ObstacleView::movingIn(double t) const {
   return {by_slice_.data() + slice * per_slice_, per_slice_};
 }
 
-Proximity ObstacleView::ofField(double, double) const { return {1e9}; }
+Proximity ObstacleView::ofField(double x, double y) const {
+  mrpt::math::TPoint2D gradient;
+  const double distance = field_->clearance(x, y, gradient);
+  return {distance, gradient.x, gradient.y};
+}
 
 }  // namespace sidestep
