@@ -7,9 +7,9 @@
 
 namespace sidestep {
 
-/// The twist nearest to (v, w) that the robot may be ordered: inside its speed limits, its wheels' too (2.37), (2.38), and
-/// reachable from `now` within `period_s`. A robot that is beyond its speed limits comes back to them at once; what is not
-/// finite counts as 0.
+/// The twist nearest to (v, w) that the robot may be ordered: inside its speed limits, its wheels' too (2.37), (2.38),
+/// and reachable from `now` within `period_s`. A robot that is beyond its speed limits comes back to them at once; what
+/// is not finite counts as 0.
 mrpt::math::TTwist2D allowedCommand(double v, double w, const mrpt::math::TTwist2D& now, const RobotLimits& limits,
                                     double period_s);
 

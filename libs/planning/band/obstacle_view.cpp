@@ -50,7 +50,8 @@ MovingItem predictedItem(const MovingObstacle& o, double after_s, const MovingVi
   const double past = after_s - leg.to.after_s, share = span > 0 ? std::min(1 + past / span, 1.0) : 1;
   item.x = leg.to.position.x + item.vx * past;
   item.y = leg.to.position.y + item.vy * past;
-  item.radius = o.radius_m + widening(leg.from.covariance + share * (leg.to.covariance - leg.from.covariance), view);
+  item.widening = widening(leg.from.covariance + share * (leg.to.covariance - leg.from.covariance), view);
+  item.radius = o.radius_m + item.widening;
   return item;
 }
 

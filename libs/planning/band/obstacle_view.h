@@ -19,6 +19,7 @@ struct Proximity {
   double dt = 0;          ///< derivative by the time [m/s]
   bool moving = false;    ///< from `moving` of the input, wherever it is taken to be
   int id = -1;            ///< MovingObstacle::id; -1: static
+  double widening = 0;  ///< by how much of the distance the obstacle was widened for its uncertainty [m]
 };
 
 /// What stands still: a disc, or with two ends a piece of wall.
@@ -34,6 +35,7 @@ struct MovingItem {
   double middle = 0;                    ///< of the slice [s]
   double radius = 0;                    ///< widened by the covariance
   int id = -1;
+  double widening = 0;  ///< of the radius
 };
 
 /// How moving obstacles are to be seen.
@@ -124,7 +126,7 @@ inline Proximity ObstacleView::proximity(const MovingItem& o, double x, double y
   const double rx = x - o.x - o.vx * (t - o.middle), ry = y - o.y - o.vy * (t - o.middle);
   const double d = std::sqrt(rx * rx + ry * ry), k = d > 1e-9 ? 1 / d : 0;
   const double ux = d > 1e-9 ? rx * k : 1, uy = ry * k;
-  return {d - o.radius, ux, uy, -(ux * o.vx + uy * o.vy), true, o.id};
+  return {d - o.radius, ux, uy, -(ux * o.vx + uy * o.vy), true, o.id, o.widening};
 }
 
 }  // namespace sidestep
