@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "core/errors.h"
+
+namespace sidestep {
+
+/// What the chosen subcommand does once the command line is read.
+using Work = std::function<ExitCode()>;
+
+/// Each adds its subcommand, in a file of its own, which sets `work` when it is chosen.
+void addBandCommand(CLI::App& app, Work& work);
+void addCrossingCommand(CLI::App& app, Work& work);
+
+}  // namespace sidestep
