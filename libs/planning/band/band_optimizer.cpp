@@ -219,11 +219,12 @@ void BandOptimizer::applyStep(const Band& band, double scale, Band& out) const {
   }
 }
 
-BandOptimizer::Result BandOptimizer::optimize(const BandProblem& problem, int iterations,
-                                              const std::function<bool()>& stop, Band& band) {
+BandOptimizer::Result BandOptimizer::optimize(const BandProblem& problem, bool warm, const std::function<bool()>& stop,
+                                              Band& band) {
+  const int iterations = warm ? params_.iterations_warm : params_.iterations_cold;
   constexpr double kDampingMost = 1e7;
   Result out;
-  double lambda = params_.damping;
+  double lambda = warm ? params_.damping_warm : params_.damping;
   out.cost = assemble(problem, band);
   out.diverged = !std::isfinite(out.cost);
   while (!out.diverged && !out.converged && out.iterations < iterations && !(stop && stop())) {

@@ -44,8 +44,9 @@ class BandOptimizer {
     bool converged = false;  ///< no step of note was left
     bool diverged = false;   ///< no step could be made, or something was not finite
   };
+  /// @param warm  the band is that of the last plan, pruned
   /// @param stop  asked before each iteration; empty: never
-  Result optimize(const BandProblem& problem, int iterations, const std::function<bool()>& stop, Band& band);
+  Result optimize(const BandProblem& problem, bool warm, const std::function<bool()>& stop, Band& band);
 
   /// Weighted cost of each term.
   std::array<double, kBandTerms> shares(const BandProblem& problem, const Band& band);

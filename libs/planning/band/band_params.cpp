@@ -25,7 +25,8 @@ void BandParams::visit(ParamVisitor& v) {
   v.integer("iterations_cold", iterations_cold, {1, 10000}, "iterations for a band from scratch");
   v.integer("iterations_warm", iterations_warm, {1, 10000}, "iterations for a band of the last plan");
   v.number("tolerance", tolerance, {0, 1}, "-", "relative decrease of the cost below which the optimizer stops");
-  v.number("damping", damping, {1e-12, 1e6}, "-", "first damping of Levenberg-Marquardt");
+  v.number("damping", damping, {1e-12, 1e6}, "-", "first damping of Levenberg-Marquardt, cold");
+  v.number("damping_warm", damping_warm, {1e-12, 1e6}, "-", "first damping of Levenberg-Marquardt, warm");
 }
 
 }  // namespace sidestep

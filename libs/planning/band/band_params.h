@@ -31,8 +31,9 @@ struct BandParams {
   double limit_share = 0.99;       ///< of the limits that the optimizer keeps to; the rest is for what is left over
   int iterations_cold = 14;        ///< of Levenberg-Marquardt, for a band from scratch
   int iterations_warm = 5;         ///< for one from the last plan
-  double tolerance = 2e-3;         ///< relative decrease of the cost below which the optimizer stops
-  double damping = 0.3;            ///< first lambda of Levenberg-Marquardt
+  double tolerance = 1e-3;         ///< relative decrease of the cost below which the optimizer stops
+  double damping = 0.3;            ///< first lambda of Levenberg-Marquardt, cold
+  double damping_warm = 1e-3;      ///< and warm
 
   void visit(ParamVisitor& v);
 };

@@ -12,6 +12,8 @@ namespace {
 
 using Status = PlanOutput::Status;
 constexpr double kBeside_m = 3;       ///< of the plane around start and goal, beyond the graph's reach
+constexpr int kPatience = 4;          ///< plans after which a band that touches something makes room for another
+constexpr double kMuchShorter = 0.9;  ///< a fresh band of a known class is tried if it takes less than this part
 constexpr double kContactCost = 1e3;  ///< of a band that touches something; later is cheaper
 
 bool finite(const PlanInput& in) {
@@ -148,20 +150,28 @@ void BandPlanner::explore(const PlanInput& input) {
   const BandCandidate* last = chosen();
   const bool single = params_.exploration.classes_max == 1;
   if (single && last != nullptr && last->whole.clear) return;
-  const double speed = std::max(input.twist.vx, 0.0);
-  double keep_out = input.limits.radius_m + params_.band.distance_least_m;
-  const SpeedProfile profile(frame_.length, speed, input.limits, goal_.is_goal);
-  const double wished = input.limits.radius_m + params_.band.distance_m;
-  const std::vector<GapPath>* paths = &graph_.search({frame_, &view_, keep_out, wished, profile});
-  if (graph_.found() == 0) {
-    keep_out = input.limits.radius_m + 0.01;
-    paths = &graph_.search({frame_, &view_, keep_out, wished, profile});
-  }
-  if (!goal_.way.empty()) addAlong(goal_.way, {goal_.pose.x, goal_.pose.y}, input);
-  for (size_t k = 0; k < graph_.found(); ++k) addAlong((*paths)[k].points, (*paths)[k].beside, input);
+  if (!goal_.way.empty()) addAlong(goal_.way, {goal_.pose.x, goal_.pose.y}, 1, input);
+  exploreAt(1, params_.exploration.classes_max, input);
+  // passing behind may mean to be slower: the same graph for a robot that takes its time
+  constexpr double kPaces[] = {0.65, 0.4};
+  for (const double pace : kPaces)
+    if (view_.movesInTime() && !single) exploreAt(pace, 1, input);
   const bool nothing = std::none_of(pool_.begin(), pool_.end(), [](const auto& c) { return c.alive; });
   const mrpt::math::TPoint2D straight[] = {{input.pose.x, input.pose.y}, {goal_.pose.x, goal_.pose.y}};
-  if (nothing) addAlong(straight, straight[1], input);
+  if (nothing) addAlong(straight, straight[1], 1, input);
+}
+
+/// Adds the classes that the gap graph holds for a robot at a part of its speed.
+void BandPlanner::exploreAt(double pace, int most, const PlanInput& input) {
+  const double radius = input.limits.radius_m, wished = radius + params_.band.distance_m;
+  RobotLimits limits = input.limits;
+  limits.v_max *= pace;
+  const SpeedProfile profile(frame_.length, std::max(input.twist.vx, 0.0), limits, goal_.is_goal);
+  const std::vector<GapPath>* paths =
+      &graph_.search({frame_, &view_, radius + params_.band.distance_least_m, wished, profile});
+  if (graph_.found() == 0) paths = &graph_.search({frame_, &view_, radius + 0.01, wished, profile});
+  const size_t n = std::min(graph_.found(), static_cast<size_t>(most));
+  for (size_t k = 0; k < n; ++k) addAlong((*paths)[k].points, (*paths)[k].beside, pace, input);
 }
 
 /// A slot without a band, or that of one that was not chosen and touches something.
@@ -169,25 +179,28 @@ BandCandidate* BandPlanner::freeSlot() {
   for (auto& c : pool_)
     if (!c.alive) return &c;
   for (auto& c : pool_)
-    if (!c.fresh && !c.whole.clear && (!c.chosen || pool_.size() == 1)) return &c;
+    if (!c.fresh && c.touching > kPatience && (!c.chosen || pool_.size() == 1)) return &c;
   return nullptr;
 }
 
-void BandPlanner::addAlong(std::span<const mrpt::math::TPoint2D> way, const mrpt::math::TPoint2D& beside,
+void BandPlanner::addAlong(std::span<const mrpt::math::TPoint2D> way, const mrpt::math::TPoint2D& beside, double pace,
                            const PlanInput& input) {
   BandCandidate* slot = freeSlot();
   if (slot == nullptr) return;
   BandStart spec{
       input.pose, goal_.pose, problem_.ends, goal_.heading_free, params_.band.interval_s, params_.band.poses_max};
-  maker_.along(way, spec, input.limits, fresh_);
+  RobotLimits limits = input.limits;
+  limits.v_max *= pace;
+  maker_.along(way, spec, limits, fresh_);
   auto& reader = workers_[0].signature;
   const double horizon = params_.view.prediction_horizon_s;
   const uint64_t signature = reader.read(fresh_, frame_, view_, horizon);
-  for (auto& c : pool_)
-    if (c.alive && &c != slot && reader.read(c.band, frame_, view_, horizon) == signature) {
-      if (!c.fresh) c.beside = beside;
-      return;
-    }
+  for (auto& c : pool_) {
+    if (!c.alive || &c == slot || reader.read(c.band, frame_, view_, horizon) != signature) continue;
+    if (!c.fresh) c.beside = beside;
+    // a band that was bent around something since gone is tried against a fresh one of its class
+    if (c.fresh || fresh_.back().t > kMuchShorter * c.band.back().t) return;
+  }
   slot->band = fresh_;
   slot->beside = beside;
   slot->chosen = slot->chosen && slot->alive;
@@ -207,12 +220,12 @@ void BandPlanner::optimizeOne(const PlanInput& input, size_t index) {
   BandCandidate& c = pool_[index];
   Worker& worker = workers_[index];
   if (!c.alive) return;
-  const int iterations = c.fresh ? params_.band.iterations_cold : params_.band.iterations_warm;
   c.ends = problem_.ends;
-  c.result = worker.optimizer.optimize(problem_, iterations, input.out_of_time, c.band);
+  c.result = worker.optimizer.optimize(problem_, !c.fresh, input.out_of_time, c.band);
   retime(c.band, input.limits, c.ends);
   c.shares = worker.optimizer.shares(problem_, c.band);
   c.whole = checkWhole(c.band, input.limits, view_);
+  c.touching = c.whole.clear ? 0 : c.fresh ? 1 : c.touching + 1;
   c.signature = worker.signature.read(c.band, frame_, view_, params_.view.prediction_horizon_s);
 }
 

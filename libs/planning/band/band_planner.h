@@ -71,6 +71,7 @@ struct BandCandidate {
   BandOptimizer::Result result;
   CheckResult whole;
   const char* rejected = "";
+  int touching = 0;  ///< plans in a row in which the band touches something
   bool alive = false, fresh = false, chosen = false;
 };
 
@@ -106,7 +107,9 @@ class BandPlanner final : public LocalPlanner {
   void carryOver(const PlanInput& input);
   bool prune(const PlanInput& input, double elapsed, BandCandidate& c);
   void explore(const PlanInput& input);
-  void addAlong(std::span<const mrpt::math::TPoint2D> way, const mrpt::math::TPoint2D& beside, const PlanInput& input);
+  void exploreAt(double pace, int most, const PlanInput& input);
+  void addAlong(std::span<const mrpt::math::TPoint2D> way, const mrpt::math::TPoint2D& beside, double pace,
+                const PlanInput& input);
   BandCandidate* freeSlot();
   void optimizeAll(const PlanInput& input);
   void optimizeOne(const PlanInput& input, size_t index);

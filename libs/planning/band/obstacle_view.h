@@ -19,7 +19,7 @@ struct Proximity {
   double dt = 0;          ///< derivative by the time [m/s]
   bool moving = false;    ///< from `moving` of the input, wherever it is taken to be
   int id = -1;            ///< MovingObstacle::id; -1: static
-  double widening = 0;  ///< by how much of the distance the obstacle was widened for its uncertainty [m]
+  double widening = 0;    ///< by how much of the distance the obstacle was widened for its uncertainty [m]
 };
 
 /// What stands still: a disc, or with two ends a piece of wall.
