@@ -133,14 +133,20 @@ void BandOptimizer::visitIntervals(const BandProblem& problem, const Band& band,
 
 template <class Sink>
 void BandOptimizer::visitPoses(const BandProblem& problem, const Band& band, Sink& sink) {
-  const ClearanceCost wished{problem.limits.radius_m, params_.distance_m};
-  const double least = params_.distance_m - params_.distance_least_m;
-  if (problem.obstacles != nullptr)
-    for (size_t k = 1; k < band.size(); ++k)
-      wished.evaluate(band[k], *problem.obstacles, [&](double r, const PoseGradient& g) {
-        sink.pose(BandTerm::kClearance, k, weights_.clearance, r, g);
-        if (r > least) sink.pose(BandTerm::kContact, k, weights_.contact, r - least, g);
+  const ClearanceCost wished{problem.limits.radius_m, params_.distance_m, params_.distance_moving_m};
+  const ClearanceCost contact{problem.limits.radius_m, params_.distance_least_m, params_.distance_least_m};
+  const double inner = std::min(params_.distance_m, params_.distance_moving_m) - params_.distance_least_m;
+  for (size_t k = 1; problem.obstacles != nullptr && k < band.size(); ++k) {
+    bool near = false;
+    wished.evaluate(band[k], *problem.obstacles, [&](double r, const PoseGradient& g) {
+      sink.pose(BandTerm::kClearance, k, weights_.clearance, r, g);
+      near = near || r > inner;
+    });
+    if (near)
+      contact.evaluate(band[k], *problem.obstacles, [&](double r, const PoseGradient& g) {
+        sink.pose(BandTerm::kContact, k, weights_.contact, r, g);
       });
+  }
   for (size_t v = 0; v < via_pose_.size(); ++v) {
     const auto k = static_cast<size_t>(via_pose_[v]);
     ViaPointCost{}.evaluate(band[k], problem.via_points[v], [&](double r, const PoseGradient& g) {

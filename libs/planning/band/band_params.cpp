@@ -20,6 +20,7 @@ void BandParams::visit(ParamVisitor& v) {
   v.number("interval_s", interval_s, {0.05, 2}, "s", "wished time between poses of a band");
   v.integer("poses_max", poses_max, {8, 1000}, "most poses of a band");
   v.number("distance_m", distance_m, {0, 10}, "m", "wished clearance to obstacles, edge to edge");
+  v.number("distance_moving_m", distance_moving_m, {0, 10}, "m", "wished clearance to moving obstacles");
   v.number("distance_least_m", distance_least_m, {0, 10}, "m", "least clearance of a band, edge to edge");
   v.number("limit_share", limit_share, {0.5, 1}, "-", "share of the robot's limits that the optimizer keeps to");
   v.integer("iterations_cold", iterations_cold, {1, 10000}, "iterations for a band from scratch");

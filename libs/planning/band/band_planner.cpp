@@ -102,7 +102,7 @@ void BandPlanner::look(const PlanInput& input) {
   const GridBounds bounds{std::min(p.x, g.x) - margin, std::min(p.y, g.y) - margin, std::max(p.x, g.x) + margin,
                           std::max(p.y, g.y) + margin};
   view_.build({input.points, input.walls, input.moving, input.field}, params_.view.movingView(), bounds,
-              input.limits.radius_m + std::max(params_.band.distance_m, 0.25));
+              input.limits.radius_m + std::max({params_.band.distance_m, params_.band.distance_moving_m, 0.25}));
   problem_.limits = input.limits;
   problem_.ends = {input.twist.vx, input.twist.omega, goal_.is_goal};
   problem_.goal_heading_free = goal_.heading_free;
@@ -153,7 +153,7 @@ void BandPlanner::explore(const PlanInput& input) {
   if (!goal_.way.empty()) addAlong(goal_.way, {goal_.pose.x, goal_.pose.y}, 1, input);
   exploreAt(1, params_.exploration.classes_max, input);
   // passing behind may mean to be slower: the same graph for a robot that takes its time
-  constexpr double kPaces[] = {0.65, 0.4};
+  constexpr double kPaces[] = {0.85, 0.7, 0.5};
   for (const double pace : kPaces)
     if (view_.movesInTime() && !single) exploreAt(pace, 1, input);
   const bool nothing = std::none_of(pool_.begin(), pool_.end(), [](const auto& c) { return c.alive; });
@@ -240,6 +240,7 @@ void BandPlanner::judge(const PlanInput& input) {
     c.heading = wanted ? params_.selection.delta_hrvo * std::abs(std::remainder(*wanted - theta_p, 2 * M_PI)) : 0;
     c.total = c.heading;
     for (double share : c.shares) c.total += share;
+    c.total -= (1 - params_.selection.clearance_share) * c.shares[static_cast<size_t>(BandTerm::kClearance)];
     if (!c.whole.clear) c.total += kContactCost / (1 + c.whole.contact_s);
     if (c.result.diverged || !std::isfinite(c.total)) {
       c.rejected = "diverged";

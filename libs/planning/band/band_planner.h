@@ -20,8 +20,8 @@ struct BandViewParams {
   std::string obstacles = "now";   ///< now: TEB, PTEB; as_printed, in_time: ETEB
   double predicted_after_s = 1.0;  ///< as_printed: how far ahead the one predicted position lies
   double prediction_horizon_s = 12;
-  double sigmas = 1.0;
-  double widening_max_m = 0.3;
+  double sigmas = 0.5;
+  double widening_max_m = 0.15;
   bool heading_of_hrvo = false;  ///< PTEB: candidates pay for leaving the direction of the HRVO model (4.10)
 
   void visit(ParamVisitor& v);
@@ -30,6 +30,7 @@ struct BandViewParams {
 
 struct SelectionParams {
   double hysteresis = 0.1;          ///< share by which another class must be cheaper than the last one
+  double clearance_share = 0.05;    ///< of the band's clearance cost that counts in the choice (2.40)
   double delta_hrvo = 0.5;          ///< of (4.10), table 4.4
   double goal_tolerance_m = 0.1;    ///< the goal is reached
   double goal_tolerance_rad = 0.1;  ///< where its heading matters

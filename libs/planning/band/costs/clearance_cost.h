@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
+
 #include "planning/band/interval.h"
 #include "planning/band/obstacle_view.h"
 
@@ -11,11 +13,12 @@ namespace sidestep {
 struct ClearanceCost {
   double radius = 0.3;    ///< robot's [m]
   double distance = 0.5;  ///< wished, from edge to edge [m]
+  double moving = 0.5;    ///< wished to what moves [m]
 
   template <class Add>
   void evaluate(const BandPose& pose, const ObstacleView& obstacles, Add&& add) const {
-    obstacles.near(pose.x, pose.y, pose.t, radius + distance, [&](const Proximity& p) {
-      const double missing = radius + distance - p.distance;
+    obstacles.near(pose.x, pose.y, pose.t, radius + std::max(distance, moving), [&](const Proximity& p) {
+      const double missing = radius + (p.moving ? moving : distance) - p.distance;
       if (missing > 0) add(missing, PoseGradient{-p.dx, -p.dy, 0, -p.dt});
     });
   }
