@@ -97,13 +97,13 @@ RobotLimits lowLimits() {
 TEST(BandCosts, TimeHasTheDerivativesItSays) { expectDerivativesEverywhere(ofInterval(TimeCost{})); }
 TEST(BandCosts, NonholonomicHasTheDerivativesItSays) { expectDerivativesEverywhere(ofInterval(NonholonomicCost{})); }
 TEST(BandCosts, VelocityHasTheDerivativesItSays) {
-  expectDerivativesEverywhere(ofInterval(VelocityCost(lowLimits(), 0.9)));
+  for (double soft : {0.0, 0.3}) expectDerivativesEverywhere(ofInterval(VelocityCost(lowLimits(), 0.9, soft)));
 }
 TEST(BandCosts, ShortestPathHasTheDerivativesItSays) { expectDerivativesEverywhere(ofInterval(ShortestPathCost{})); }
 TEST(BandCosts, ForwardHasTheDerivativesItSays) { expectDerivativesEverywhere(ofInterval(ForwardCost{})); }
 
 TEST(BandCosts, AccelerationHasTheDerivativesItSays) {
-  const AccelerationCost cost(lowLimits(), 0.9);
+  const AccelerationCost cost(lowLimits(), 0.9, 0.2);
   expectDerivativesEverywhere([cost](const Vector& x) {
     Rows rows;
     const Interval i = intervalBetween(poseIn(x, 0), poseIn(x, 4)), j = intervalBetween(poseIn(x, 4), poseIn(x, 8));
@@ -118,7 +118,7 @@ TEST(BandCosts, AccelerationHasTheDerivativesItSays) {
 }
 
 TEST(BandCosts, AccelerationAtBothEndsHasTheDerivativesItSays) {
-  const AccelerationCost cost(lowLimits(), 0.9);
+  const AccelerationCost cost(lowLimits(), 0.9, 0.2);
   for (double sign : {1.0, -1.0})
     expectDerivativesEverywhere([cost, sign](const Vector& x) {
       Rows rows;

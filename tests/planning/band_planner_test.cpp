@@ -18,13 +18,13 @@ std::atomic<int> allocations = 0;
 }  // namespace
 
 // All allocations of this test program are seen; they are counted while `counting` is set.
-void* operator new(size_t size) {
+[[gnu::noinline]] void* operator new(size_t size) {
   if (counting) ++allocations;
   if (void* p = std::malloc(size)) return p;
   throw std::bad_alloc();
 }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, size_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, size_t) noexcept { std::free(p); }
 
 namespace sidestep {
 namespace {

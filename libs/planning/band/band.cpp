@@ -142,12 +142,12 @@ void resample(const Band& band, double from_s, int intervals, Band& out) {
   }
 }
 
-void retime(Band& band, const RobotLimits& limits, const BandEnds& ends) {
+void retime(Band& band, const RobotLimits& limits, const BandEnds& ends, Retiming kind) {
   thread_local std::vector<Piece> pieces;
   pieces.clear();
   for (size_t k = 0; k + 1 < band.size(); ++k) {
     Piece p = pieceOf(band[k], band[k + 1]);
-    p.dt = std::max(p.dt, leastBySpeed(p, limits));
+    p.dt = kind == Retiming::kQuickest ? leastBySpeed(p, limits) : std::max(p.dt, leastBySpeed(p, limits));
     pieces.push_back(p);
   }
   constexpr int kSweeps = 40;

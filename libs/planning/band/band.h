@@ -38,12 +38,16 @@ TrajectorySpeed speedAt(const Band& band, const BandEnds& ends, double t);
 /// Poses at equal times, `intervals` of them, along the band from its time `from_s` on; times then start at 0.
 void resample(const Band& band, double from_s, int intervals, Band& out);
 
+enum class Retiming {
+  kRepair,   ///< intervals only grow
+  kQuickest  ///< they start from the least that the speed limits allow: the shortest time for these poses
+};
+
 /// Lengthens intervals until speeds and accelerations are inside the limits, the poses staying where they are. What
 /// cannot be repaired so (the robot is too fast for the band's beginning) is left.
-void retime(Band& band, const RobotLimits& limits, const BandEnds& ends);
+void retime(Band& band, const RobotLimits& limits, const BandEnds& ends, Retiming kind = Retiming::kRepair);
 
-/// Shortest time from speed `v` to rest at distance `length` on a straight line, and the time at which a part of it is
-/// done.
+/// Fastest drive along a line of some length, from a given speed on; to rest or through.
 struct SpeedProfile {
   SpeedProfile(double length_m, double v_start, const RobotLimits& limits, bool stops);
   double duration() const { return total_; }

@@ -101,8 +101,8 @@ const char* bandTermName(BandTerm term) {
 
 template <class Sink>
 void BandOptimizer::visitIntervals(const BandProblem& problem, const Band& band, Sink& sink) {
-  const VelocityCost velocity(problem.limits, params_.limit_share);
-  const AccelerationCost acceleration(problem.limits, params_.limit_share);
+  const VelocityCost velocity(problem.limits, params_.limit_share, soft_);
+  const AccelerationCost acceleration(problem.limits, params_.limit_share, soft_);
   const size_t n = band.size() - 1;
   intervals_.resize(n);
   for (size_t k = 0; k < n; ++k) intervals_[k] = intervalBetween(band[k], band[k + 1]);
@@ -197,6 +197,7 @@ double BandOptimizer::cost(const BandProblem& problem, const Band& band) {
 
 std::array<double, kBandTerms> BandOptimizer::shares(const BandProblem& problem, const Band& band) {
   assignViaPoints(problem, band);
+  soft_ = 0;
   ShareSink sink;
   visitTerms(problem, band, sink);
   return sink.shares;
@@ -227,13 +228,27 @@ void BandOptimizer::applyStep(const Band& band, double scale, Band& out) const {
 
 BandOptimizer::Result BandOptimizer::optimize(const BandProblem& problem, bool warm, const std::function<bool()>& stop,
                                               Band& band) {
-  const int iterations = warm ? params_.iterations_warm : params_.iterations_cold;
-  constexpr double kDampingMost = 1e7;
   Result out;
+  // rounded-off limits first: hard ones are met only by steps too small to get anywhere
+  static constexpr double kSoft[] = {0.05};
+  const int all = warm ? params_.iterations_warm : params_.iterations_cold;
   double lambda = warm ? params_.damping_warm : params_.damping;
+  for (size_t stage = warm ? std::size(kSoft) - 1 : 0; stage < std::size(kSoft); ++stage) {
+    soft_ = kSoft[stage];
+    const int left = static_cast<int>(std::size(kSoft) - stage), iterations = (all - out.iterations + left - 1) / left;
+    descend(problem, iterations, stop, lambda, band, out);
+  }
+  return out;
+}
+
+void BandOptimizer::descend(const BandProblem& problem, int iterations, const std::function<bool()>& stop,
+                            double& lambda, Band& band, Result& out) {
+  constexpr double kDampingMost = 1e7;
+  const int last = out.iterations + iterations;
+  out.converged = false;
   out.cost = assemble(problem, band);
   out.diverged = !std::isfinite(out.cost);
-  while (!out.diverged && !out.converged && out.iterations < iterations && !(stop && stop())) {
+  while (!out.diverged && !out.converged && out.iterations < last && !(stop && stop())) {
     ++out.iterations;
     const bool solved = system_.solve(lambda);
     if (solved) applyStep(band, stepScale(band), trial_);
@@ -243,13 +258,13 @@ BandOptimizer::Result BandOptimizer::optimize(const BandProblem& problem, bool w
       std::swap(band, trial_);
       lambda = std::max(lambda * 0.2, 1e-9);
       out.cost = now;
-      if (!out.converged && out.iterations < iterations) assemble(problem, band);
+      if (!out.converged && out.iterations < last) assemble(problem, band);
     } else {
       lambda *= 6;
       out.converged = lambda > kDampingMost;
     }
   }
-  return out;
+  lambda = std::min(lambda, 1.0);
 }
 
 }  // namespace sidestep

@@ -56,6 +56,8 @@ class BandOptimizer {
   const BlockBandedSystem& system() const { return system_; }
 
  private:
+  void descend(const BandProblem& problem, int iterations, const std::function<bool()>& stop, double& lambda,
+               Band& band, Result& out);
   template <class Sink>
   void visitTerms(const BandProblem& problem, const Band& band, Sink& sink);
   template <class Sink>
@@ -73,6 +75,7 @@ class BandOptimizer {
   std::vector<Interval> intervals_;
   std::vector<int> via_pose_;  ///< for each via point the pose that it draws
   Band trial_;
+  double soft_ = 0;  ///< rounding of the limits in this stage
 };
 
 }  // namespace sidestep

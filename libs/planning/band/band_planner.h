@@ -114,6 +114,7 @@ class BandPlanner final : public LocalPlanner {
   BandCandidate* freeSlot();
   void optimizeAll(const PlanInput& input);
   void optimizeOne(const PlanInput& input, size_t index);
+  void tryQuickest(const PlanInput& input, Worker& worker, BandCandidate& c);
   void judge(const PlanInput& input);
   void dropTwins();
   std::optional<double> hrvoHeading(const PlanInput& input);
