@@ -63,7 +63,7 @@ int expectDerivatives(const Term& term, const Vector& x) {
   const Eigen::MatrixXd J = support::centralDifferences(f, x);
   for (size_t k = 0; k < rows.J.size(); ++k)
     EXPECT_LT((J.row(static_cast<Eigen::Index>(k)).transpose() - rows.J[k]).cwiseAbs().maxCoeff(),
-              1e-6 * (1 + rows.J[k].cwiseAbs().maxCoeff()))
+              1e-5 * (1 + rows.J[k].cwiseAbs().maxCoeff()))
         << "residual " << k << " = " << rows.r[k];
   return static_cast<int>(rows.r.size());
 }

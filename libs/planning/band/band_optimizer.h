@@ -38,6 +38,9 @@ class BandOptimizer {
  public:
   BandOptimizer(const BandWeights& weights, const BandParams& params) : weights_(weights), params_(params) {}
 
+  /// Room for bands of so many poses, since bands of one length change places with those of another.
+  void reserve(size_t poses) { trial_.reserve(poses); }
+
   struct Result {
     double cost = 0;  ///< (2.33) at the end
     int iterations = 0;

@@ -38,6 +38,12 @@ BandPlanner::BandPlanner(const BandPlannerParams& params)
   const auto n = static_cast<size_t>(params.exploration.classes_max);
   workers_.assign(n, Worker(params));
   pool_.resize(n);
+  // bands change places; all have room for the longest
+  const auto room = static_cast<size_t>(2 * params.band.poses_max);
+  for (auto& c : pool_) c.band.reserve(room);
+  for (auto& w : workers_) w.reserve(room);
+  fresh_.reserve(room);
+  checked_.reserve(room);
 }
 
 void BandPlanner::reset() {

@@ -97,7 +97,11 @@ class BandPlanner final : public LocalPlanner {
 
  private:
   struct Worker {
-    Worker(const BandPlannerParams& p) : optimizer(p.weights, p.band) {}
+    explicit Worker(const BandPlannerParams& p) : optimizer(p.weights, p.band) {}
+    void reserve(size_t poses) {
+      spare.reserve(poses);
+      optimizer.reserve(poses);
+    }
     BandOptimizer optimizer;
     SignatureReader signature;
     Band spare;

@@ -45,7 +45,7 @@ void BandMaker::smooth(std::span<const mrpt::math::TPoint2D> way) {
   const int n = std::clamp(static_cast<int>(length_.back() / kDense_m), 2, 400);
   dense_.clear();
   for (int i = 0; i <= n; ++i) dense_.push_back(pointAt(length_.back() * i / n));
-  points_.swap(dense_);
+  points_ = dense_;
   for (int k = 0; k < kSmoothings; ++k)
     for (size_t i = 1; i + 1 < points_.size(); ++i)
       points_[i] = (points_[i - 1] + points_[i] * 2 + points_[i + 1]) * 0.25;
