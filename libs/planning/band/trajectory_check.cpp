@@ -77,6 +77,7 @@ CheckResult checkStart(const Band& band, const BandEnds& ends, const RobotLimits
 
 CheckResult checkWhole(const Band& band, const RobotLimits& limits, const ObstacleView& obstacles) {
   constexpr int kParts = 3;
+  constexpr double kBetween_m = 0.015;  // what chords and coarse steps may hide
   CheckResult out;
   for (size_t k = 0; k + 1 < band.size(); ++k) {
     const BandPose& a = band[k];
@@ -86,7 +87,7 @@ CheckResult checkWhole(const Band& band, const RobotLimits& limits, const Obstac
       if (short_way && i < kParts) continue;
       const double share = static_cast<double>(i) / kParts, t = a.t + share * (b.t - a.t);
       const double x = a.x + share * (b.x - a.x), y = a.y + share * (b.y - a.y);
-      note(nearestTo(x, y, t, limits.radius_m, obstacles), t, 0, out);
+      note(nearestTo(x, y, t, limits.radius_m, obstacles), t, kBetween_m, out);
     }
   }
   return out;
