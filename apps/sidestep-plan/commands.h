@@ -13,5 +13,7 @@ using Work = std::function<ExitCode()>;
 
 /// Each adds its subcommand, in a file of its own, which sets `work` when it is chosen.
 void addPathCommand(CLI::App& app, Work& work);
+void addBandCommand(CLI::App& app, Work& work);
+void addCrossingCommand(CLI::App& app, Work& work);
 
 }  // namespace sidestep

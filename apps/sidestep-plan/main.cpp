@@ -9,6 +9,8 @@ int main(int argc, char** argv) {
   Work work;
   app.require_subcommand(1);
   addPathCommand(app, work);
+  addBandCommand(app, work);
+  addCrossingCommand(app, work);
   app.footer(
       "Exit codes: 0 done, 2 usage, 3 input missing, 4 input damaged, 5 no path, 130 interrupted.\n"
       "Example (a map that comes with the Debian package mrpt-common):\n"

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "common/program.h"
+#include "sidestep-plan/band_run.h"
+#include "sidestep-plan/commands.h"
+#include "sidestep-plan/thread_pool.h"
+
+namespace sidestep {
+namespace {
+
+struct Options : BandCommandOptions {
+  bool moving = false;
+  std::optional<int> classes;
+  int repeats = 5;
+  Options() { output = "sidestep-plan-band-out"; }
+};
+
+/// CPU time of this thread, so that others on the machine do not count; with more threads wall time.
+double nowMs(bool one_thread) {
+  timespec t{};
+  clock_gettime(one_thread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
+std::string csvLine(const BandRow& r, const std::string& planner) {
+  std::string line = std::to_string(r.n_obs) + "," + std::to_string(r.seed) + "," + planner + "," + r.status;
+  char text[400];
+  std::snprintf(text, sizeof text, ",%.4f,%.4f,%d,%.4f,%.4f,%.5f,%.5f,%.5f,%.5f,%.4f\n", r.time_ms, r.warm_ms, r.poses,
+                r.transition_s, r.min_dist_m, r.max_v, r.max_w, r.max_a, r.max_alpha, r.cost);
+  return line + text;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// Medians by number of obstacles, as JSON and as a table on stdout.
+std::string summary(const std::vector<BandRow>& rows, const std::string& planner) {
+  std::map<int, std::vector<BandRow>> groups;
+  for (const auto& r : rows) groups[r.n_obs].push_back(r);
+  std::string json = "{\n  \"planner\": \"" + planner + "\"";
+  std::printf("%s: medians\n  n_obs problems clear  cold ms  warm ms  transition s  largest a  largest alpha\n",
+              planner.c_str());
+  for (const auto& [n, group] : groups) {
+    const auto of = [&group = group](double BandRow::*field) {
+      std::vector<double> out;
+      for (const auto& r : group) out.push_back(r.*field);
+      return out;
+    };
+    const auto most = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
+    const auto clear = std::count_if(group.begin(), group.end(), [](const auto& r) { return r.status == "clear"; });
+    std::printf("  %5d %8zu %5td %8.3f %8.3f %13.2f %10.4f %14.4f\n", n, group.size(), clear,
+                median(of(&BandRow::time_ms)), median(of(&BandRow::warm_ms)), median(of(&BandRow::transition_s)),
+                most(of(&BandRow::max_a)), most(of(&BandRow::max_alpha)));
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  ",\n  \"%d\": {\"problems\": %zu, \"clear\": %td, \"time_ms\": %.4f, \"warm_ms\": %.4f, "
+                  "\"transition_s\": %.4f}",
+                  n, group.size(), clear, median(of(&BandRow::time_ms)), median(of(&BandRow::warm_ms)),
+                  median(of(&BandRow::transition_s)));
+    json += text;
+  }
+  return json + "\n}\n";
+}
+
+ExitCode runBand(const Options& o) {
+  BandPlannerParams params = bandPlannerParams(o.planner);
+  RobotLimits robot;
+  const auto visit = [&](ParamVisitor& v) {
+    v.section("robot", "the robot", [&](ParamVisitor& s) { robot.visit(s); });
+    v.section("planner", "the band planner", [&](ParamVisitor& s) { params.visit(s); });
+  };
+  if (!o.config_file.empty()) readYaml(o.config_file, visit);
+  if (o.classes) params.exploration.classes_max = *o.classes;
+  if (o.write_config) {
+    std::fputs(writeYaml(visit).c_str(), stdout);
+    return ExitCode::kDone;
+  }
+  if (o.problems.empty()) throw ConfigError("--problems is missing; name a CSV of problems");
+  const auto problems = readProblems(o.problems, true, 0);
+  const OutputFolder folder(o.output, o.overwrite);
+  folder.writeConfiguration(visit);
+  ThreadPool pool(o.threads);
+  BandPlanner planner(params);
+  if (o.threads > 1) planner.useThreads([&](int n, const auto& f) { pool.run(n, f); });
+  const bool one = o.threads == 1;
+  const BandRun run{robot, o.moving, o.repeats, 50, [one] { return nowMs(one); }};
+  ProgressBar bar("band", o.quiet);
+  std::string csv =
+      "n_obs,seed,planner,status,time_ms,warm_ms,poses,transition_s,min_dist_m,max_v,max_w,max_a,max_alpha,cost\n";
+  std::vector<BandRow> rows;
+  for (const auto& problem : problems) {
+    if (interrupted()) break;
+    rows.push_back(runBandProblem(problem, run, planner));
+    csv += csvLine(rows.back(), o.planner);
+    bar.update(static_cast<double>(rows.size()) / static_cast<double>(problems.size()));
+  }
+  folder.writeText("results.csv", csv);
+  if (!rows.empty()) folder.writeText("metrics.json", summary(rows, o.planner));
+  return rows.size() < problems.size() ? ExitCode::kInterrupted : ExitCode::kDone;
+}
+
+}  // namespace
+
+void addBandCommand(CLI::App& app, Work& work) {
+  auto o = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("band", "solve a file of problems with a timed elastic band, and time it");
+  sub->add_option("--problems", o->problems, "n_obs,seed,i,x,y,vx,vy: point obstacles between (0,0,0) and (8,0)")
+      ->type_name("FILE");
+  sub->add_option("--planner", o->planner, "teb, pteb, eteb, eteb-printed, pteb+eteb")
+      ->check(CLI::IsMember(bandPlannerNames()))
+      ->type_name("NAME")
+      ->capture_default_str();
+  sub->add_flag("--moving", o->moving, "obstacles move at their velocities");
+  sub->add_option("--threads", o->threads, "for the bands of a plan; the results are the same")
+      ->check(CLI::Range(1, 64))
+      ->type_name("N")
+      ->capture_default_str();
+  sub->add_option("--classes", o->classes, "bands side by side; default: as configured")
+      ->check(CLI::Range(1, 16))
+      ->type_name("N");
+  sub->add_option("--repeats", o->repeats, "cold plans of each problem; times are their medians")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N")
+      ->capture_default_str();
+  sub->add_option("-c,--config", o->config_file, "robot and planner (YAML)")->type_name("FILE");
+  sub->add_option("-o,--output", o->output, "output folder")->type_name("DIR")->capture_default_str();
+  sub->add_flag("-w,--overwrite", o->overwrite, "write into a folder that holds something");
+  sub->add_flag("-q,--quiet", o->quiet, "no progress bar");
+  sub->add_flag("--write-config", o->write_config, "print all parameters as commented YAML and exit");
+  sub->footer(
+      "Makes results.csv (min_dist_m is from rim to point; negative: contact), metrics.json, effective.yaml, "
+      "command.txt.\n"
+      "Example:\n"
+      "  sidestep-plan band --problems share/problems/band.csv --planner teb -o out-band");
+  sub->callback([o, &work] { work = [o] { return runBand(*o); }; });
+}
+
+}  // namespace sidestep
