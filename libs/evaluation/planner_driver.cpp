@@ -32,10 +32,14 @@ class PlannerDriver final : public Driver {
 
 }  // namespace
 
+std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits) {
+  return std::make_unique<PlannerDriver>(std::move(planner), limits);
+}
+
 DriverFactory plannerDrivers(const LocalPlannerParams& params) {
   return [params](const std::string& name, const RobotLimits& limits) -> std::unique_ptr<Driver> {
     if (name == "straight" || name == "stand") return makeSimpleDriver(name, limits);
-    return std::make_unique<PlannerDriver>(makeLocalPlanner(name, params), limits);
+    return makePlannerDriver(makeLocalPlanner(name, params), limits);
   };
 }
 

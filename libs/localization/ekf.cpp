@@ -8,6 +8,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "localization/ekf_smoothing.h"
+
 namespace sidestep {
 namespace {
 constexpr int kOffset = 3, kBias = 4, kScale = 5, kTurnScale = 6, kPull = 7;
@@ -149,55 +151,18 @@ void Ekf<N>::predict(const MotionStep& motion) {
   P_ = P;
 }
 
-namespace {
-
-/// P^-1 of a covariance that may have rows of zeros (what is known for sure), whose rows of the result are of no
-/// matter.
-template <int N>
-Eigen::Matrix<double, N, N> solvedRight(const Eigen::Matrix<double, N, N>& A, const Eigen::Matrix<double, N, N>& P) {
-  using Vector = Eigen::Matrix<double, N, 1>;
-  const Vector scale = P.diagonal().unaryExpr([](double v) { return v > 0 ? 1 / std::sqrt(v) : 0; });
-  Eigen::Matrix<double, N, N> R = scale.asDiagonal() * P * scale.asDiagonal();
-  R.diagonal() += Vector::Constant(1e-12) + scale.unaryExpr([](double v) { return v > 0 ? 0.0 : 1.0; });
-  const Eigen::Matrix<double, N, N> B = (A * scale.asDiagonal()).transpose();
-  return R.ldlt().solve(B).transpose() * scale.asDiagonal();
-}
-
-}  // namespace
-
 template <int N>
 bool Ekf<N>::smoothBack(const std::vector<double>& before, const MotionStep& motion, const std::vector<double>& after,
                         std::vector<double>& smoothed) const {
   if (motion.still || !(motion.dt_s >= 0)) return true;
-  const Eigen::Map<const State> x(before.data()), x_after(after.data());
-  const Eigen::Map<const Covariance> P(before.data() + N), P_after(after.data() + N);
-  Eigen::Map<State> x_smooth(smoothed.data());
-  Eigen::Map<Covariance> P_smooth(smoothed.data() + N);
-  Covariance cross = P;  // P F'
-  cross.template leftCols<3>() = P * transition(x, motion).F.transpose();
-  const Covariance C = solvedRight<N>(cross, P_after);
-  State ahead = x_smooth - x_after;
-  ahead(2) = mrpt::math::wrapToPi(ahead(2));
-  State x_new = x + C * ahead;
-  x_new(2) = mrpt::math::wrapToPi(x_new(2));
-  const Covariance P_new = P + C * (P_smooth - P_after) * C.transpose();
-  if (!x_new.allFinite() || !P_new.allFinite()) return false;
-  x_smooth = x_new;
-  P_smooth = 0.5 * (P_new + P_new.transpose());
-  return true;
+  const Eigen::Map<const State> x(before.data());
+  const auto F = transition(x, motion).F;
+  return smoothStep({F.data(), 3, N}, before, after, smoothed);
 }
 
 template <int N>
 void Ekf<N>::smoothReset(const std::vector<double>& before, double opened, std::vector<double>& smoothed) const {
-  const Eigen::Map<const State> x(before.data());
-  const Eigen::Map<const Covariance> P(before.data() + N);
-  Eigen::Map<State> x_smooth(smoothed.data());
-  Eigen::Map<Covariance> P_smooth(smoothed.data() + N);
-  State ahead = x_smooth - x;
-  ahead(2) = mrpt::math::wrapToPi(ahead(2));
-  x_smooth = x + ahead / opened;
-  x_smooth(2) = mrpt::math::wrapToPi(x_smooth(2));
-  P_smooth = (P + (P_smooth - opened * P) / (opened * opened)).eval();
+  sidestep::smoothReset(N, before, opened, smoothed);
 }
 
 template <int N>

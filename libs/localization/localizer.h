@@ -26,7 +26,7 @@ struct LocalizerParams {
   ImuParams imu;
   GpsParams gps;
   BeaconParams beacons;
-  LaserParams laser;
+  ScanParams laser;
   StartParams start;
   double late_window_s = 2;
   double coast_after_s = 1;

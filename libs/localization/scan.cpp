@@ -9,7 +9,7 @@
 
 namespace sidestep {
 
-void LaserParams::visit(ParamVisitor& v) {
+void ScanParams::visit(ParamVisitor& v) {
   v.integer("beams", beams, {3, 2000}, "how many of a scan's beams are used");
   v.number("min_range_m", min_range_m, {0, 100}, "m", "shorter ranges are the robot itself");
   v.number("max_range_m", max_range_m, {0.1, 1000}, "m",
@@ -21,7 +21,7 @@ void LaserParams::visit(ParamVisitor& v) {
   v.angle("yaw_deg", yaw, {-360, 360}, "else: its turn");
 }
 
-std::shared_ptr<const Scan> readScan(const LaserParams& params, const mrpt::obs::CObservation2DRangeScan& scan) {
+std::shared_ptr<const Scan> readScan(const ScanParams& params, const mrpt::obs::CObservation2DRangeScan& scan) {
   const size_t n = scan.getScanSize();
   const mrpt::poses::CPose3D T_base_laser =
       params.pose_from_log ? scan.sensorPose : mrpt::poses::CPose3D(params.x_m, params.y_m, 0, params.yaw, 0, 0);

@@ -11,7 +11,7 @@
 namespace sidestep {
 
 /// How a laser's scans are read.
-struct LaserParams {
+struct ScanParams {
   int beams = 60;
   double min_range_m = 0.05;
   double max_range_m = 80;
@@ -31,6 +31,6 @@ struct Scan {
 };
 
 /// @return null if no beam is usable
-std::shared_ptr<const Scan> readScan(const LaserParams& params, const mrpt::obs::CObservation2DRangeScan& scan);
+std::shared_ptr<const Scan> readScan(const ScanParams& params, const mrpt::obs::CObservation2DRangeScan& scan);
 
 }  // namespace sidestep

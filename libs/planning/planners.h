@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planning/band/band_planner.h"
 #include "planning/local_planner.h"
 #include "planning/velocity/hrvo_planner.h"
 #include "planning/window/window_planner.h"
@@ -16,6 +17,7 @@ struct LocalPlannerParams {
   WindowParams dwa;
   HrvoPlannerParams hrvo;
   EdwaParams edwa;
+  BandPlannerParams band;
 
   void visit(ParamVisitor& v);
 };

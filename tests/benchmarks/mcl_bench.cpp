@@ -45,7 +45,7 @@ void BM_MclStep(benchmark::State& state) {
   mcl.start(belief);
   Measurement m;
   m.kind = Measurement::Kind::kScan;
-  m.scan = readScan(LaserParams(), demoScan());
+  m.scan = readScan(ScanParams(), demoScan());
   MotionStep step;
   step.dt_s = 0.1;
   step.distance_m = 0.06;

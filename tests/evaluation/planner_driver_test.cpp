@@ -32,9 +32,9 @@ TEST(PlannerDriver, ALocalPlannerDrivesWithWhatIsPerceived) {
   p.people_names = {"one"};
   PeopleParams& one = p.people["one"];
   one.model = "straight", one.speed = 0, one.x_m = one.goal_x_m = 6;
-  World world(p, 1, {}, driversOf([](const std::string& name) -> std::unique_ptr<LocalPlanner> {
-                return name == "shy" ? std::make_unique<Shy>() : nullptr;
-              }));
+  World world(p, 1, {}, [](const std::string&, const RobotLimits& limits) {
+    return makePlannerDriver(std::make_unique<Shy>(), limits);
+  });
   world.run();
   // It sees the person from 3 m off, at x = 3, and brakes from 0.7 m/s at 0.5 m/s^2: 0.49 m, plus up to one period.
   EXPECT_GT(world.robots()[0].pose.x, 3.48);
@@ -43,8 +43,9 @@ TEST(PlannerDriver, ALocalPlannerDrivesWithWhatIsPerceived) {
 }
 
 TEST(PlannerDriver, OtherNamesAreTheSimpleDriversOrErrors) {
-  const auto factory = driversOf({});
+  const auto factory = plannerDrivers({});
   EXPECT_NE(factory("stand", {}), nullptr);
+  for (const auto& name : localPlannerNames()) EXPECT_NE(factory(name, {}), nullptr);
   EXPECT_THROW(factory("nobody", {}), ConfigError);
 }
 

@@ -31,7 +31,7 @@ Measurement scanAt(double time_s, const GridMap& map, const mrpt::math::TPose2D&
   Measurement m;
   m.kind = Measurement::Kind::kScan;
   m.time_s = time_s;
-  m.scan = readScan(LaserParams(), support::scanIn(map, pose, 0.02, random));
+  m.scan = readScan(ScanParams(), support::scanIn(map, pose, 0.02, random));
   return m;
 }
 
@@ -44,7 +44,7 @@ TEST(ReadScan, EndsOfBeamsAreWhereTheLaserOnTheRobotSeesThem) {
   o.maxRange = 10;
   o.resizeScanAndAssign(3, 2, true);
   o.setSensorPose(mrpt::poses::CPose3D(0.5, 0, 0.3, M_PI / 2, 0, 0));
-  const auto scan = readScan(LaserParams(), o);
+  const auto scan = readScan(ScanParams(), o);
   ASSERT_TRUE(scan);
   ASSERT_EQ(scan->size(), 3u);
   const float expected[3][2] = {{2.5f, 0}, {0.5f, 2}, {-1.5f, 0}};
@@ -60,7 +60,7 @@ TEST(ReadScan, AnUpsideDownLaserIsMirrored) {
   o.maxRange = 10;
   o.resizeScanAndAssign(3, 2, true);
   o.setSensorPose(mrpt::poses::CPose3D(0, 0, 0.3, 0, 0, M_PI));
-  const auto scan = readScan(LaserParams(), o);
+  const auto scan = readScan(ScanParams(), o);
   EXPECT_NEAR(scan->y[0], 2, 1e-5);  // the first beam, to the right, comes out left
 }
 
@@ -72,9 +72,9 @@ TEST(ReadScan, LeavesOutWhatIsNoRangeAndSaysWhenNothingIsLeft) {
   o.setScanRange(0, 0);
   o.setScanRange(1, 10);
   o.setScanRange(2, std::numeric_limits<float>::quiet_NaN());
-  EXPECT_EQ(readScan(LaserParams(), o)->size(), 1u);
+  EXPECT_EQ(readScan(ScanParams(), o)->size(), 1u);
   o.setScanRangeValidity(3, false);
-  EXPECT_EQ(readScan(LaserParams(), o), nullptr);
+  EXPECT_EQ(readScan(ScanParams(), o), nullptr);
 }
 
 // ---- likelihood ----
@@ -83,7 +83,7 @@ TEST(ScanModel, IsHighestWhereTheScanWasTaken) {
   const auto map = support::room();
   Random random(1);
   const mrpt::math::TPose2D truth{4.2, 2.1, 0.7};
-  const auto scan = readScan(LaserParams(), support::scanIn(map, truth, 0, random));
+  const auto scan = readScan(ScanParams(), support::scanIn(map, truth, 0, random));
   for (const char* kind : {"field", "beam"}) {
     const auto model = modelOf(map, kind);
     const double best = likelihoodAt(*model, *scan, truth);
@@ -123,7 +123,7 @@ TEST(ScanModel, KnowsAMapThatIsTurnedInItsFrame) {
   const auto straight = modelOf(map);
   Random random(2);
   const mrpt::math::TPose2D truth{4.2, 2.1, 0.7};
-  const auto scan = readScan(LaserParams(), support::scanIn(map, truth, 0, random));
+  const auto scan = readScan(ScanParams(), support::scanIn(map, truth, 0, random));
   map.T_map_grid = {3, -2, 0.5};
   const auto turned = modelOf(map);
   const double c = std::cos(0.5), s = std::sin(0.5);
