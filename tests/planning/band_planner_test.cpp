@@ -4,27 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <thread>
 
 #include "core/errors.h"
+#include "support/allocations.h"
 #include "support/band_scenes.h"
-
-namespace {
-std::atomic<bool> counting = false;
-std::atomic<int> allocations = 0;
-}  // namespace
-
-// All allocations of this test program are seen; they are counted while `counting` is set.
-[[gnu::noinline]] void* operator new(size_t size) {
-  if (counting) ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, size_t) noexcept { std::free(p); }
 
 namespace sidestep {
 namespace {
@@ -82,14 +66,15 @@ TEST(BandPlanner, AnyNumberOfThreadsGivesTheSameBytes) {
 TEST(BandPlanner, AllocatesNothingOnceItHasSeenTheScene) {
   BandPlanner planner(bandPlannerParams("pteb+eteb"));
   PlanOutput out;
+  long allocations = 0;
   for (bool count : {false, true}) {
     BandScene scene(4, 20, 6);
     planner.reset();
     for (int k = 0; k < 30; ++k) {
       const PlanInput input = scene.input();
-      counting = count;
+      const long before = testing::allocationsSoFar();
       planner.plan(input, out);
-      counting = false;
+      if (count) allocations += testing::allocationsSoFar() - before;
       scene.advance(out.command);
     }
   }

@@ -9,20 +9,8 @@
 
 #include "core/errors.h"
 #include "planning/planners.h"
+#include "support/allocations.h"
 #include "support/planning_worlds.h"
-
-namespace {
-long allocations = 0;
-}  // namespace
-
-// Counts what the planners allocate: the sanitizers' allocator stays beneath.
-__attribute__((noinline)) void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-__attribute__((noinline)) void operator delete(void* p) noexcept { std::free(p); }
-__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace sidestep::testing {
 namespace {
@@ -229,10 +217,10 @@ TEST(LocalPlanners, AllocateNothingAfterTheFirstCycles) {
     for (auto& w : worlds) w.points = {{3, 0}, {3, 0.1}};
     for (auto& w : worlds) w.walls = {{{4, -3}, {4, 3}}, {{-4, -3}, {-4, 3}}};
     for (auto& w : worlds) planner->plan(w.shown(), out);
-    const long before = allocations;
+    const long before = allocationsSoFar();
     for (int round = 0; round < 3; ++round)
       for (auto& w : worlds) planner->plan(w.shown(), out);
-    EXPECT_EQ(allocations - before, 0) << name;
+    EXPECT_EQ(allocationsSoFar() - before, 0) << name;
   }
 }
 
