@@ -30,12 +30,19 @@ cv::Rect rectangle(const CellWindow& w) {
 }
 
 /// Exact Euclidean distance of each nonzero pixel to the nearest zero pixel, in pixels; OpenCV's numbers for an image
-/// without zeros mean nothing, so then it is infinity.
+/// without zeros mean nothing, so then it is infinity. `out` keeps its memory if it has the size.
+void distances(const cv::Mat& free, cv::Mat& out) {
+  if (cv::countNonZero(free) < static_cast<int>(free.total())) {
+    cv::distanceTransform(free, out, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    return;
+  }
+  out.create(free.size(), CV_32F);
+  out.setTo(std::numeric_limits<float>::infinity());
+}
+
 cv::Mat distances(const cv::Mat& free) {
   cv::Mat out;
-  if (cv::countNonZero(free) == static_cast<int>(free.total()))
-    return cv::Mat(free.size(), CV_32F, cv::Scalar(std::numeric_limits<float>::infinity()));
-  cv::distanceTransform(free, out, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  distances(free, out);
   return out;
 }
 
@@ -105,7 +112,10 @@ void DistanceField::compute(const CellWindow& padded) {
   cv::Mat values(height, width, CV_32F, values_.data());
   const cv::Rect part(padded.ix_min - source.ix_min, padded.iy_min - source.iy_min, rectangle(padded).width,
                       rectangle(padded).height);
-  const cv::Mat out = distances(free(rectangle(source)))(part);
+  const bool all = part.size() == values.size();
+  cv::Mat out = all ? values : cv::Mat();  // of the whole raster in place
+  distances(free(rectangle(source)), out);
+  out = out(part);
   const cv::Mat in = params_.negative_inside ? cv::Mat(distances(~free(rectangle(source)))(part)) : cv::Mat();
   const auto scale = static_cast<float>(frame_.resolution_m), cap = static_cast<float>(params_.cap_m);
   for (int row = 0; row < part.height; ++row) {

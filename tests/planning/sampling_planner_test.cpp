@@ -31,7 +31,7 @@ SamplingParams counted(const std::string& space) {
   SamplingParams params;
   params.space = space;
   params.time_s = 3600;
-  params.iterations = space == "se2" ? 1500 : 150;  // arcs are dear
+  params.iterations = 1500;
   return params;
 }
 
@@ -52,7 +52,9 @@ class SamplingPlanners : public ::testing::TestWithParam<std::tuple<std::string,
 TEST_P(SamplingPlanners, FindAPathThatKeepsTheClearanceAndTheSameOneAgain) {
   const auto& [space, word] = GetParam();
   const auto grid = rooms();
-  const auto planner = makeSamplingPlanner(word, grid, counted(space));
+  auto params = counted(space);
+  if (space != "se2" && word == "rrtstar") params.iterations = 150;  // each of its looks tries many arcs
+  const auto planner = makeSamplingPlanner(word, grid, params);
   const auto first = planner->plan(kStart, kGoal);
   expectAPath(first, grid->field(), space + " " + word);
   if (word == "prmstar") return;  // two threads of OMPL's; documented
