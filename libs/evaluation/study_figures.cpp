@@ -66,7 +66,7 @@ std::string head(const std::string& title, const std::string& png, int width, in
          " font 'sans,11'\nset encoding utf8\nset output " + gnuplotQuoted(png) + "\nset title " +
          gnuplotQuoted(title) +
          " noenhanced font ',13'\nset border 3 lc rgb '#404040'\nset tics nomirror out\n"
-         "set grid ytics back lt 1 lc rgb '#e4e4e4' lw 1\n"
+         "set pointintervalbox 0\nset grid ytics back lt 1 lc rgb '#e4e4e4' lw 1\n"
          "set key outside below center horizontal Left reverse noenhanced samplen 2 spacing 1.2 width 3\n";
 }
 
