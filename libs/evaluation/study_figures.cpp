@@ -66,7 +66,7 @@ std::string head(const std::string& title, const std::string& png, int width, in
          " font 'sans,11'\nset encoding utf8\nset output " + gnuplotQuoted(png) + "\nset title " +
          gnuplotQuoted(title) +
          " noenhanced font ',13'\nset border 3 lc rgb '#404040'\nset tics nomirror out\n"
-         "set pointintervalbox 0\nset grid ytics back lt 1 lc rgb '#e4e4e4' lw 1\n"
+         "set grid ytics back lt 1 lc rgb '#e4e4e4' lw 1\n"
          "set key outside below center horizontal Left reverse noenhanced samplen 2 spacing 1.2 width 3\n";
 }
 
@@ -101,7 +101,7 @@ void drawBars(const Study& study, const std::string& metric, const Lines& lines,
     blocks += block + " << EOD\n" + data + "EOD\n";
     plots += block + " using 1:2:5 with boxes fs solid 0.85 noborder lc rgb '" + colour(a) + "' title " +
              gnuplotQuoted(algorithms[a]) + ", " + block +
-             " using 1:2:3:4 with yerrorbars ps 0 lw 1.2 lc rgb '#202020' notitle, ";
+             " using 1:3:(0):($4-$3) with vectors heads size screen 0.004,90 lw 1.2 lc rgb '#202020' notitle, ";
   }
   if (!published.empty()) {
     blocks += "$p << EOD\n" + published + "EOD\n";
