@@ -101,7 +101,7 @@ void drawBars(const Study& study, const std::string& metric, const Lines& lines,
     blocks += block + " << EOD\n" + data + "EOD\n";
     plots += block + " using 1:2:5 with boxes fs solid 0.85 noborder lc rgb '" + colour(a) + "' title " +
              gnuplotQuoted(algorithms[a]) + ", " + block +
-             " using 1:2:3:4 with yerrorbars ps 0 lw 1.2 lc rgb '#202020' notitle, ";
+             " using 1:3:(0):($4-$3) with vectors heads size screen 0.004,90 lw 1.2 lc rgb '#202020' notitle, ";
   }
   if (!published.empty()) {
     blocks += "$p << EOD\n" + published + "EOD\n";
