@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <cmath>
+#include <optional>
 
 namespace sidestep {
 namespace {
@@ -16,16 +17,32 @@ using namespace mrpt::obs;
 
 constexpr double kMetresPerDegree = 6371008.8 * M_PI / 180;
 
-/// Shows latitude and longitude of each message of a fix that has them.
-template <class Gps, class Use>
-void withDegrees(Gps& gps, const Use& use) {
-  if (gps.template hasMsgClass<gnss::Message_NMEA_GGA>()) {
-    auto& fields = gps.template getMsgByClass<gnss::Message_NMEA_GGA>().fields;
-    use(fields.latitude_degrees, fields.longitude_degrees);
+/// Where a fix is, by either of its messages [deg]. The fields are packed: nothing may refer to them.
+struct Degrees {
+  double latitude = 0, longitude = 0;
+};
+
+std::optional<Degrees> degreesOf(const CObservationGPS& gps) {
+  if (gps.hasMsgClass<gnss::Message_NMEA_GGA>()) {
+    const auto& fields = gps.getMsgByClass<gnss::Message_NMEA_GGA>().fields;
+    return Degrees{fields.latitude_degrees, fields.longitude_degrees};
   }
-  if (gps.template hasMsgClass<gnss::Message_NMEA_RMC>()) {
-    auto& fields = gps.template getMsgByClass<gnss::Message_NMEA_RMC>().fields;
-    use(fields.latitude_degrees, fields.longitude_degrees);
+  if (gps.hasMsgClass<gnss::Message_NMEA_RMC>()) {
+    const auto& fields = gps.getMsgByClass<gnss::Message_NMEA_RMC>().fields;
+    return Degrees{fields.latitude_degrees, fields.longitude_degrees};
+  }
+  return std::nullopt;
+}
+
+/// Moves each message of a fix.
+void move(CObservationGPS& gps, const Degrees& by) {
+  if (auto* gga = gps.getMsgByClassPtr<gnss::Message_NMEA_GGA>()) {
+    gga->fields.latitude_degrees += by.latitude;
+    gga->fields.longitude_degrees += by.longitude;
+  }
+  if (auto* rmc = gps.getMsgByClassPtr<gnss::Message_NMEA_RMC>()) {
+    rmc->fields.latitude_degrees += by.latitude;
+    rmc->fields.longitude_degrees += by.longitude;
   }
 }
 
@@ -34,12 +51,11 @@ double parallel(double latitude) { return std::cos(std::round(latitude) * M_PI /
 
 PlanarReading readGps(const CObservationGPS& gps) {
   PlanarReading out;
-  withDegrees(gps, [&](double latitude, double longitude) {
-    if (out.has_xy) return;
-    out.has_xy = true;
-    out.y = latitude * kMetresPerDegree;
-    out.x = longitude * kMetresPerDegree * parallel(latitude);
-  });
+  const auto at = degreesOf(gps);
+  if (!at) return out;
+  out.has_xy = true;
+  out.x = at->longitude * kMetresPerDegree * parallel(at->latitude);
+  out.y = at->latitude * kMetresPerDegree;
   return out;
 }
 
@@ -47,10 +63,7 @@ void writeGps(const PlanarReading& reading, CObservationGPS& gps) {
   const PlanarReading was = readGps(gps);
   if (!was.has_xy || !reading.has_xy) return;
   const double north = (reading.y - was.y) / kMetresPerDegree, east = (reading.x - was.x) / kMetresPerDegree;
-  withDegrees(gps, [&](double& latitude, double& longitude) {
-    longitude += east / parallel(latitude);
-    latitude += north;
-  });
+  move(gps, {north, east / parallel(degreesOf(gps)->latitude)});
 }
 
 bool removeImu(CObservation& observation, TIMUDataIndex what) {

@@ -167,7 +167,8 @@ void Crowd::accelerate(size_t i, std::span<const Body> robots, const WallIndex& 
       feel(people_[j].position, {0, 0}, -0.2);  // friends walk closer, and do not clear each other's way
   });
   if (w.sees_robots)
-    for (const Body& robot : robots) feel(robot.position, robot.velocity, robot.radius_m - p.radius_m + forces_.robot_room_m);
+    for (const Body& robot : robots)
+      feel(robot.position, robot.velocity, robot.radius_m - p.radius_m + forces_.robot_room_m);
   f += fromWalls(p, walls);
   if (w.held_together) {
     const TPoint2D to = centres_[w.group] - p.position;

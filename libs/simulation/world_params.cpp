@@ -41,7 +41,9 @@ void WorldParams::visit(ParamVisitor& v) {
            "between two orders to a robot; a whole number of steps");
   v.number("duration_s", duration_s, {0.01, 1e5}, "s", "the run ends then, if the first robot has not arrived before");
   v.number("people_record_hz", people_record_hz, {0, 1000}, "Hz", "how often people are written to the log; 0: never");
-  v.text("map", map, "walls from a map (ROS map.yaml, MRPT .gridmap, .simplemap), as seen from here or from the scenario; empty: none");
+  v.text("map", map,
+         "walls from a map (ROS map.yaml, MRPT .gridmap, .simplemap), as seen from here or from the scenario; empty: "
+         "none");
   v.text("tracks", tracks, "recorded people, a CSV of t,id,x,y; empty: none");
   v.number("tracks_from_s", tracks_from_s, {-1e9, 1e9}, "s", "time of that file at which the run begins");
   v.groups("walls", wall_names, "walls, by name",
