@@ -82,6 +82,7 @@ double goalSpeed(const PlanInput& input) {
   const double bearing = std::min(std::abs(wrapped(std::atan2(dy, dx) - input.pose.phi)), M_PI / 2);
   const double turning = kForRamps * input.limits.w_max * d, stopping = std::sqrt(2 * input.limits.brake * d);
   const double fastest = std::min(input.limits.v_max, stopping);
+  if (d * input.limits.w_max > input.limits.v_max) return fastest;
   return turning < 2 * std::sin(bearing) * fastest ? turning / (2 * std::sin(bearing)) : fastest;
 }
 

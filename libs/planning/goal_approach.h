@@ -28,9 +28,10 @@ ReachableTwists reachableTwists(const PlanInput& input);
 /// The goal, or a point of the path `lookahead_m` ahead of the point of the path that is nearest to the robot.
 mrpt::math::TPoint2D targetPoint(const PlanInput& input, double lookahead_m);
 
-/// The largest speed at which the robot still comes to the goal, at most v_max: it can stop there, sqrt(2 brake d), and it
-/// can turn there, w_max d / (2 sin(bearing)), less a fifth for ramps; a goal inside the turning circle would be circled
-/// for ever. Abeam and behind counts as abeam.
+/// The largest speed at which the robot still comes to the goal, at most v_max: it can stop there, sqrt(2 brake d), and
+/// it can turn there, w_max d / (2 sin(bearing)), less a fifth for ramps; a goal inside the turning circle would be
+/// circled for ever. The latter counts only nearer than the turning radius, so that it costs no time in an encounter
+/// before.
 double goalSpeed(const PlanInput& input);
 
 /// Clears `out` for a new cycle, keeping its memory.

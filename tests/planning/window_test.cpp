@@ -141,7 +141,7 @@ TEST(Surroundings, SkippingStepsMissesNothing) {
       for (const auto& m : world.moving) {
         const double d =
             std::hypot(m.position.x + m.velocity.x * 0.1 * k - p.x, m.position.y + m.velocity.y * 0.1 * k - p.y);
-        const double radius = std::max(0.6, std::min(0.6, m.position.norm() - 1e-3));
+        const double radius = std::min(0.6, m.position.norm() - 1e-3);
         if (d < radius - 1e-5) first = 0.1 * (k - 1);
       }
     }
