@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "common/program.h"
+#include "sidestep-plan/band_picture.h"
 #include "sidestep-plan/band_run.h"
 #include "sidestep-plan/commands.h"
 #include "sidestep-plan/thread_pool.h"
@@ -15,7 +16,7 @@ namespace sidestep {
 namespace {
 
 struct Options : BandCommandOptions {
-  bool moving = false;
+  bool moving = false, picture = false;
   std::optional<int> classes;
   int repeats = 5;
   Options() { output = "sidestep-plan-band-out"; }
@@ -91,7 +92,14 @@ ExitCode runBand(const Options& o) {
   BandPlanner planner(params);
   if (o.threads > 1) planner.useThreads([&](int n, const auto& f) { pool.run(n, f); });
   const bool one = o.threads == 1;
-  const BandRun run{robot, o.moving, o.repeats, 50, [one] { return nowMs(one); }};
+  BandPicture picture;
+  const size_t apart = std::max<size_t>(problems.size() / 9, 1);  // nine of them, evenly chosen
+  BandRun run{robot, o.moving, o.repeats, 50, [one] { return nowMs(one); }, {}};
+  if (o.picture)
+    run.planned_cold = [&](const BandProblemCase& p, const BandPlanner& bands) {
+      if (static_cast<size_t>(&p - problems.data()) % apart == 0 && !picture.full())
+        picture.add(p, bands, robot.radius_m);
+    };
   ProgressBar bar("band", o.quiet);
   std::string csv =
       "n_obs,seed,planner,status,time_ms,warm_ms,poses,transition_s,min_dist_m,max_v,max_w,max_a,max_alpha,cost\n";
@@ -103,6 +111,7 @@ ExitCode runBand(const Options& o) {
     bar.update(static_cast<double>(rows.size()) / static_cast<double>(problems.size()));
   }
   folder.writeText("results.csv", csv);
+  if (o.picture) picture.write(folder.file("bands.png"));
   if (!rows.empty()) folder.writeText("metrics.json", summary(rows, o.planner));
   return rows.size() < problems.size() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
@@ -119,6 +128,7 @@ void addBandCommand(CLI::App& app, Work& work) {
       ->type_name("NAME")
       ->capture_default_str();
   sub->add_flag("--moving", o->moving, "obstacles move at their velocities");
+  sub->add_flag("--picture", o->picture, "draw nine of the cold plans, bands.png");
   sub->add_option("--threads", o->threads, "for the bands of a plan; the results are the same")
       ->check(CLI::Range(1, 64))
       ->type_name("N")

@@ -92,6 +92,7 @@ BandRow runBandProblem(const BandProblemCase& problem, const BandRun& run, BandP
     cold.push_back(run.cpu_ms() - from);
   }
   if (const auto* best = planner.chosen()) describe(*best, problem, run, row);
+  if (run.planned_cold) run.planned_cold(problem, planner);
   for (const auto& c : planner.candidates()) row.classes += c.alive ? 1 : 0;
   for (int k = 0; k < run.replans && out.status != PlanOutput::Status::kGoalReached; ++k) {
     scene.advance(out.command);

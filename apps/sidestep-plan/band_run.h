@@ -25,6 +25,8 @@ struct BandRun {
   bool moving = false;
   int repeats = 5, replans = 50;
   std::function<double()> cpu_ms;  ///< a clock
+  std::function<void(const BandProblemCase&, const BandPlanner&)>
+      planned_cold;  ///< told after the cold plan; may be empty
 };
 
 /// Plans cold `repeats` times, then `replans` times while the robot drives what was ordered and obstacles move on.

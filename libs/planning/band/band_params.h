@@ -28,7 +28,7 @@ struct BandParams {
   int poses_max = 150;              ///< of a band
   double distance_m = 0.5;          ///< wished clearance, edge to edge
   double distance_moving_m = 0.25;  ///< to what moves
-  double distance_least_m = 0.05;   ///< least clearance that a band may have; nearer is a contact
+  double distance_least_m = 0.07;   ///< least clearance that a band may have; nearer is a contact
   double limit_share = 0.99;        ///< of the limits that the optimizer keeps to; the rest is for what is left over
   int iterations_cold = 26;         ///< of Levenberg-Marquardt, for a band from scratch
   int iterations_warm = 8;          ///< for one from the last plan

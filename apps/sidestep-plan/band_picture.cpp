@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sidestep-plan/band_picture.h"
+
+#include <cstdio>
+
+#include "evaluation/gnuplot.h"
+
+namespace sidestep {
+namespace {
+
+std::string row(double x, double y) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.4f %.4f\n", x, y);
+  return text;
+}
+
+std::string points(const Band& band) {
+  std::string out;
+  for (const auto& p : band) out += row(p.x, p.y);
+  return out + "\n";
+}
+
+}  // namespace
+
+void BandPicture::add(const BandProblemCase& problem, const BandPlanner& planner, double radius_m) {
+  const std::string n = std::to_string(panels_++);
+  std::string obstacles, others, best;
+  for (const auto& o : problem.obstacles) obstacles += row(o.position.x, o.position.y);
+  for (const auto& c : planner.candidates())
+    if (c.alive) (c.chosen ? best : others) += points(c.band);
+  if (others.empty()) others = row(0, 0);
+  if (best.empty()) best = row(0, 0);
+  data_ += "$o" + n + " << EOD\n" + obstacles + "EOD\n$a" + n + " << EOD\n" + others + "EOD\n$b" + n + " << EOD\n" +
+           best + "EOD\n";
+  plots_ += "set title '" + std::to_string(problem.n_obs) + " obstacles, seed " + std::to_string(problem.seed) +
+            "'\nplot $o" + n + " u 1:2:(" + shortestNumber(radius_m) + ") w circles lc rgb '#bbbbbb', $a" + n +
+            " w lines lc rgb '#777777', $b" + n + " w linespoints pt 7 ps 0.4 lc rgb '#cc0000'\n";
+}
+
+void BandPicture::write(const std::string& file) const {
+  runGnuplot(
+      "set terminal pngcairo size 1500,1200\nset output " + gnuplotQuoted(file) + "\n" + data_ +
+          "set multiplot layout 3,3\nset size ratio -1\nunset key\nset xrange [-0.8:8.8]\nset yrange [-4.8:4.8]\n" +
+          plots_ + "unset multiplot\n",
+      "the picture of the bands");
+}
+
+}  // namespace sidestep
