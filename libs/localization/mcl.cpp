@@ -15,6 +15,10 @@ constexpr size_t kMemorySize = 8;
 constexpr double kWide_m = 0.5;  // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
 constexpr double kLostPrior = 0.01;  // weight of what is drawn anew: others must fit much worse to lose to it
+/// Logistic regression of "off by more than 1 m" on the log-odds of the particles that are farther than that from the
+/// estimate, and the share of beams that the map explains; on two logs (doc/laser-localization.md says how).
+constexpr double kLost[3] = {24.5, 0.36, -26.7};
+constexpr double kLeastExplained = 0.9;  // below it, about even odds
 }  // namespace
 
 MclParams::MclParams() {
@@ -196,7 +200,7 @@ void Mcl::watch(const Measurement& m, double likelihood) {
   a.slow += (first ? 1 : mcl_.average_slow) * (likelihood - a.slow);
   a.fast += (first ? 1 : mcl_.average_fast) * (likelihood - a.fast);
   a.explained += mcl_.average_fast * (model_->explained(*m.scan, estimate().mean) - a.explained);
-  const bool lost = a.fast < mcl_.recovery_below * a.slow || a.explained < 0.5;
+  const bool lost = a.fast < mcl_.recovery_below * a.slow || a.explained < kLeastExplained;
   if (!lost || m.time_s - a.injected_s < mcl_.recovery_pause_s) return;
   a.injected_s = m.time_s;
   estimate_.reset();
@@ -232,8 +236,9 @@ double Mcl::shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) cons
 }
 
 std::optional<double> Mcl::lostProbability() const {
-  const double beyond = shareBeyond(estimate().mean, 1);
-  return beyond;
+  const double beyond = std::clamp(shareBeyond(estimate().mean, 1), 0.001, 0.999);
+  const double z = kLost[0] + kLost[1] * std::log(beyond / (1 - beyond)) + kLost[2] * memory_.explained;
+  return 1 / (1 + std::exp(-z));
 }
 
 void Mcl::save(std::vector<double>& out) const {
