@@ -14,10 +14,10 @@ namespace {
 constexpr size_t kMemorySize = 9;
 constexpr double kWide_m = 0.5;  // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
-constexpr double kLostPrior = 0.001; // weight of what is drawn anew: others must fit much worse to lose to it
+constexpr double kLostPrior = 0.001;  // weight of what is drawn anew: others must fit much worse to lose to it
 /// Logistic regression of "off by more than 1 m" on the log-odds of the particles that are farther than that from the
-/// estimate, and the share of beams that the map explains; on two logs (doc/laser-localization.md says how).
-constexpr double kLost[3] = {24.5, 0.36, -26.7};
+/// estimate, and the share of beams that the map explains; on three logs (doc/laser-localization.md says how).
+constexpr double kLost[3] = {5.9, 0.38, -7.1};
 constexpr double kLeastExplained = 0.9;  // below it, about even odds
 }  // namespace
 
