@@ -11,10 +11,14 @@
 
 namespace sidestep {
 namespace {
-constexpr size_t kMemorySize = 8;
+constexpr size_t kMemorySize = 9;
 constexpr double kWide_m = 0.5;  // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
-constexpr double kLostPrior = 0.01;  // weight of what is drawn anew: others must fit much worse to lose to it
+constexpr double kLostPrior = 0.001;  // weight of what is drawn anew: others must fit much worse to lose to it
+/// Logistic regression of "off by more than 1 m" on the log-odds of the particles that are farther than that from the
+/// estimate, and the share of beams that the map explains; on three logs (doc/laser-localization.md says how).
+constexpr double kLost[3] = {5.9, 0.38, -7.1};
+constexpr double kLeastExplained = 0.9;  // below it, about even odds
 }  // namespace
 
 MclParams::MclParams() {
@@ -42,6 +46,8 @@ void MclParams::visit(ParamVisitor& v) {
   v.number("average_fast", average_fast, {0.0001, 1}, "", "weight of a scan in the fast one");
   v.number("lost_share", recovery_share, {0, 0.9}, "", "share of the particles drawn anew when scans do not fit");
   v.number("lost_below", recovery_below, {0, 1}, "", "they do not: fast average below this part of the slow one");
+  v.number("lost_gain", recovery_gain, {0, 1000}, "",
+           "and some place fits better than the cloud, by this much in the logarithm of its weight");
   v.number("lost_pause_s", recovery_pause_s, {0, 1000}, "s", "not more often than this");
 }
 
@@ -91,7 +97,7 @@ Correction Mcl::correctScan(const Measurement& m) {
   ++memory_.scans;
   if (memory_.anywhere > 0) {
     memory_.anywhere = 0;
-    drawCandidates(*m.scan, mcl_.candidates_per_m2, 0, cloud_.size());
+    drawFrom(candidates(*m.scan, mcl_.candidates_per_m2, cloud_.size()), 0, cloud_.size());
     cloud_.equalWeights();
     return {};
   }
@@ -100,11 +106,11 @@ Correction Mcl::correctScan(const Measurement& m) {
                          log_likelihood_.data());
   const auto n = static_cast<Eigen::Index>(cloud_.size());
   const auto l = log_likelihood_.head(n);
-  const double fit = (cloud_.weights() * l).sum() / static_cast<double>(m.scan->size());
+  const double fit = (cloud_.weights() * l).sum();
   const double alpha = temper();
   likelihoods() = (alpha * (l - l.maxCoeff())).max(-700.0).exp();
   multiplyWeights(0);
-  watch(m, std::exp(fit));
+  watch(m, fit);
   if (params_.resampling.each_step || degenerate()) resample();
   estimate_.reset();
   return {};
@@ -149,25 +155,32 @@ double Mcl::temper() const {
   return low;
 }
 
-/// Sets particles [first, first + count) to draws from poses all over the map, weighed by the scan; with an exponent
-/// that leaves some of them for each. Allocates: it happens at the start and when the robot is lost.
-void Mcl::drawCandidates(const Scan& scan, double per_m2, size_t first, size_t count) {
-  const double wanted = std::clamp(per_m2 * model_->freeArea(), static_cast<double>(count), kMostCandidates);
+/// Poses from all over the map, and how the scan fits there. Allocates: at the start, and when the robot may be lost.
+Mcl::Candidates Mcl::candidates(const Scan& scan, double per_m2, size_t least) {
+  const double wanted = std::clamp(per_m2 * model_->freeArea(), static_cast<double>(least), kMostCandidates);
   const auto total = static_cast<Eigen::Index>(wanted);
-  Eigen::ArrayXd x(total), y(total), yaw(total), l(total);
+  Candidates c;
+  for (auto* a : {&c.x, &c.y, &c.yaw, &c.fit}) a->resize(total);
   for (Eigen::Index i = 0; i < total; ++i) {
     const auto p = model_->drawFree(random_);
-    x[i] = p.x;
-    y[i] = p.y;
-    yaw[i] = p.phi;
+    c.x[i] = p.x;
+    c.y[i] = p.y;
+    c.yaw[i] = p.phi;
   }
-  model_->logLikelihoods(scan, x.data(), y.data(), yaw.data(), static_cast<size_t>(total), l.data());
-  l -= l.maxCoeff();
-  const double least = std::min(0.5 * wanted, 0.5 * static_cast<double>(count));
+  model_->logLikelihoods(scan, c.x.data(), c.y.data(), c.yaw.data(), static_cast<size_t>(total), c.fit.data());
+  c.best = c.fit.maxCoeff();
+  return c;
+}
+
+/// Sets particles [first, first + count) to draws from the candidates by their fit, with an exponent that leaves some
+/// of them for each.
+void Mcl::drawFrom(const Candidates& c, size_t first, size_t count) {
+  const auto total = c.fit.size();
+  const double least = 0.5 * static_cast<double>(std::min(static_cast<size_t>(total), count));
   double low = 0, high = model_->weight();
   Eigen::ArrayXd w(total);
   const auto ess = [&](double alpha) {
-    for (Eigen::Index i = 0; i < total; ++i) w[i] = weightExp(alpha * l[i]);
+    for (Eigen::Index i = 0; i < total; ++i) w[i] = weightExp(alpha * (c.fit[i] - c.best));
     w /= w.sum();
     return 1 / w.square().sum();
   };
@@ -183,26 +196,33 @@ void Mcl::drawCandidates(const Scan& scan, double per_m2, size_t first, size_t c
   resampler.draw(ResamplingScheme::kSystematic, w.data(), static_cast<size_t>(total), count, random_, index.data());
   for (size_t k = 0; k < count; ++k) {
     const auto i = static_cast<Eigen::Index>(first + k), j = static_cast<Eigen::Index>(index[k]);
-    cloud_.x[i] = x[j];
-    cloud_.y[i] = y[j];
-    cloud_.yaw[i] = yaw[j];
+    cloud_.x[i] = c.x[j];
+    cloud_.y[i] = c.y[j];
+    cloud_.yaw[i] = c.yaw[j];
   }
 }
 
-/// Augmented MCL (Thrun, Burgard & Fox 2005, table 8.3), with draws that fit the scan instead of draws from anywhere.
-void Mcl::watch(const Measurement& m, double likelihood) {
+/// Augmented MCL (Thrun, Burgard & Fox 2005, table 8.3), with draws that fit the scan instead of draws from anywhere;
+/// and only where some place fits better than where the robot is thought to be. If none does, the map is at fault.
+/// @param fit  mean log-likelihood of the scan over the cloud
+void Mcl::watch(const Measurement& m, double fit) {
   auto& a = memory_;
+  const double likelihood = std::exp(fit / static_cast<double>(m.scan->size()));
   const bool first = a.slow == 0;
   a.slow += (first ? 1 : mcl_.average_slow) * (likelihood - a.slow);
   a.fast += (first ? 1 : mcl_.average_fast) * (likelihood - a.fast);
   a.explained += mcl_.average_fast * (model_->explained(*m.scan, estimate().mean) - a.explained);
-  const bool lost = a.fast < mcl_.recovery_below * a.slow || a.explained < 0.5;
-  if (!lost || m.time_s - a.injected_s < mcl_.recovery_pause_s) return;
+  const bool doubtful = a.fast < mcl_.recovery_below * a.slow || a.explained < kLeastExplained;
+  if (!doubtful) a.rival *= 1 - mcl_.average_fast;
+  if (!doubtful || m.time_s - a.injected_s < mcl_.recovery_pause_s) return;
   a.injected_s = m.time_s;
-  estimate_.reset();
   const auto count = static_cast<size_t>(mcl_.recovery_share * static_cast<double>(cloud_.size()));
+  const Candidates places = candidates(*m.scan, mcl_.candidates_per_m2 / 10, std::max<size_t>(count, 1));
+  a.rival = model_->weight() * (places.best - fit);
+  if (a.rival < mcl_.recovery_gain || count == 0) return;
   makeRoom(count, kLostPrior);
-  drawCandidates(*m.scan, mcl_.candidates_per_m2 / 10, cloud_.size() - count, count);
+  drawFrom(places, cloud_.size() - count, count);
+  estimate_.reset();
 }
 
 PoseBelief Mcl::estimate() const {
@@ -232,21 +252,23 @@ double Mcl::shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) cons
 }
 
 std::optional<double> Mcl::lostProbability() const {
-  const double beyond = shareBeyond(estimate().mean, 1);
-  return beyond;
+  const double beyond = std::clamp(shareBeyond(estimate().mean, 1), 0.001, 0.999);
+  const double z = kLost[0] + kLost[1] * std::log(beyond / (1 - beyond)) + kLost[2] * memory_.explained;
+  return 1 / (1 + std::exp(-z));
 }
 
 void Mcl::save(std::vector<double>& out) const {
   ParticleFilter::save(out);
   const auto& a = memory_;
-  for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.injected_s, a.scans}) out.push_back(v);
+  for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.injected_s, a.scans, a.rival})
+    out.push_back(v);
 }
 
 void Mcl::restore(const std::vector<double>& state) {
   estimate_.reset();
   ParticleFilter::restore(state);
   const double* p = state.data() + state.size() - kMemorySize;
-  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]};
+  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8]};
 }
 
 std::unique_ptr<PoseFilter> makeMcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel> model,

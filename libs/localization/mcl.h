@@ -26,6 +26,7 @@ struct MclParams {
   double average_fast = 0.3;
   double recovery_share = 0.2;
   double recovery_below = 0.8;
+  double recovery_gain = 3;
   double recovery_pause_s = 2;
 
   MclParams();
@@ -58,8 +59,13 @@ class Mcl final : public ParticleFilter {
   Correction correctScan(const Measurement& m);
   void jitter();
   double temper() const;
-  void drawCandidates(const Scan& scan, double per_m2, size_t first, size_t count);
-  void watch(const Measurement& m, double likelihood);
+  struct Candidates {
+    Eigen::ArrayXd x, y, yaw, fit;
+    double best = 0;  // fit
+  };
+  Candidates candidates(const Scan& scan, double per_m2, size_t least);
+  void drawFrom(const Candidates& c, size_t first, size_t count);
+  void watch(const Measurement& m, double fit);
   double shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) const;
 
   struct Memory {                 // all of it plain numbers: they are saved
@@ -69,6 +75,7 @@ class Mcl final : public ParticleFilter {
     double explained = 1;         // average share of beams that the map explains
     double injected_s = 0;
     double scans = 0;
+    double rival = 0;  // how much better the best other place fitted, when last looked for
   };
   MclParams mcl_;
   std::shared_ptr<const ScanModel> model_;

@@ -161,7 +161,7 @@ void ScanModel::logLikelihoods(const Scan& scan, const double* x, const double* 
 
 double ScanModel::explained(const Scan& scan, const mrpt::math::TPose2D& pose) const {
   const GridPose p = toGrid(pose.x, pose.y, pose.phi);
-  const auto near = static_cast<float>(3 * params_.sd_m / frame_.resolution_m);
+  const auto near = static_cast<float>(1.5 * params_.sd_m / frame_.resolution_m);
   size_t count = 0;
   for (size_t i = 0; i < scan.size(); ++i)
     count += distance_[cellAt(p.x + p.c * scan.x[i] - p.s * scan.y[i], p.y + p.s * scan.x[i] + p.c * scan.y[i])] < near;

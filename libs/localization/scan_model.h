@@ -41,7 +41,7 @@ class ScanModel {
   /// Log-likelihood of all the scan's beams from each of `n` poses (map frame), not yet weighted.
   void logLikelihoods(const Scan& scan, const double* x, const double* y, const double* yaw, size_t n,
                       double* out) const;
-  /// Share of the beams that end within three sd of an obstacle.
+  /// Share of the beams that end within one and a half sd of an obstacle.
   double explained(const Scan& scan, const mrpt::math::TPose2D& pose) const;
   /// What a scan of `beams` beams weighs, as a factor of its log-likelihood.
   double weight() const { return params_.beam_weight; }

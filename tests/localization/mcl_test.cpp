@@ -226,6 +226,32 @@ TEST(Mcl, FindsARobotThatWasCarriedAway) {
   EXPECT_LT(drive.error(mcl), 0.3);
 }
 
+/// Told a right or a wrong start, half of each: how often the filter says that it is lost, and how often it is.
+TEST(Mcl, SaysHowLikelyItIsLost) {
+  double told = 0, lost = 0, told_when_lost = 0, told_when_not = 0, all = 0;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    Drive drive;
+    drive.random = Random(12, seed);
+    Mcl mcl(MclParams(), seed, modelOf(drive.map), false);
+    mcl.start(around(seed % 2 ? drive.truth : mrpt::math::TPose2D{8, 2, 2}));
+    for (int k = 1; k <= 60; ++k) {
+      drive.step(mcl, k);
+      if (k % 3 != 0 || k < 6) continue;
+      const bool is_lost = drive.error(mcl) > 1;
+      const double p = *mcl.lostProbability();
+      ASSERT_GE(p, 0);
+      ASSERT_LE(p, 1);
+      ++all;
+      told += p;
+      lost += is_lost;
+      (is_lost ? told_when_lost : told_when_not) += p;
+    }
+  }
+  EXPECT_GT(lost / all, 0.02);
+  EXPECT_NEAR(told / all, lost / all, 0.1);
+  EXPECT_GT(told_when_lost / lost, 3 * told_when_not / (all - lost));
+}
+
 TEST(Mcl, AScanFromWhereTheLastOneWasTakenSaysNothingNew) {
   Drive drive;
   Mcl mcl(MclParams(), 7, modelOf(drive.map), false);

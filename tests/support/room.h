@@ -30,9 +30,9 @@ inline GridMap room() {
   return map;
 }
 
-/// Range to the first occupied cell, in steps of 5 mm; far beyond the room if there is none.
+/// Range to the first occupied cell, in steps of 1 cm; far beyond the room if there is none.
 inline double rangeIn(const GridMap& map, double x, double y, double angle) {
-  for (double r = 0; r < 20; r += 0.005)
+  for (double r = 0; r < 20; r += 0.01)
     if (map.grid->getPos(static_cast<float>(x + r * std::cos(angle)), static_cast<float>(y + r * std::sin(angle))) <
         0.4f)
       return r;
