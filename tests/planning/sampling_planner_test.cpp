@@ -54,7 +54,7 @@ TEST_P(SamplingPlanners, FindAPathThatKeepsTheClearanceAndTheSameOneAgain) {
   const auto grid = rooms();
   auto params = counted(space);
   if (space != "se2" && word == "rrtstar") params.iterations = 150;  // each of its looks tries many arcs
-  if (word == "bitstar") params.iterations = 15000;  // looks the most often
+  if (word == "bitstar") params.iterations = 15000;                  // looks the most often
   const auto planner = makeSamplingPlanner(word, grid, params);
   const auto first = planner->plan(kStart, kGoal);
   expectAPath(first, grid->field(), space + " " + word);
@@ -69,7 +69,9 @@ INSTANTIATE_TEST_SUITE_P(Lines, SamplingPlanners,
                          ::testing::Combine(::testing::Values("se2"), ::testing::ValuesIn(samplingPlanners())));
 INSTANTIATE_TEST_SUITE_P(Arcs, SamplingPlanners,
                          ::testing::Combine(::testing::Values("dubins", "reeds-shepp"),
-                                            ::testing::Values("rrtconnect", "rrtstar", "bitstar")));
+                                            ::testing::Values("rrtconnect", "rrtstar")));
+INSTANTIATE_TEST_SUITE_P(ArcsBothWays, SamplingPlanners,
+                         ::testing::Combine(::testing::Values("reeds-shepp"), ::testing::Values("bitstar")));
 
 TEST(SamplingPlanner, ArcsHaveTheTurningRadius) {
   const auto grid = rooms();

@@ -248,6 +248,8 @@ std::unique_ptr<GlobalPlanner> makeSamplingPlanner(const std::string& word, std:
   }
   if (word == "prmstar" && params.space == "dubins")
     throw ConfigError("prmstar cannot plan in the space dubins, as its roadmap knows no directions; take reeds-shepp");
+  if ((word == "bitstar" || word == "informed-rrtstar") && params.space == "dubins")  // OMPL 1.5.2 ends by an assertion
+    throw ConfigError(word + " cannot plan in the space dubins, as its samples know no directions; take reeds-shepp");
   return std::make_unique<SamplingPlanner>(kind->second, std::move(grid), params);
 }
 
