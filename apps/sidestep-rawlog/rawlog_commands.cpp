@@ -9,6 +9,7 @@
 #include "common/program.h"
 #include "datasets/log_degrader.h"
 #include "datasets/log_writer.h"
+#include "evaluation/localization_config.h"
 #include "sidestep-rawlog/rawlog_report.h"
 
 namespace sidestep {
@@ -16,13 +17,7 @@ namespace {
 
 LogReaderOptions readerOptions(const RawlogOptions& options) {
   LogReaderOptions out;
-  for (const std::string& text : options.labels) {
-    const size_t at = text.find('=');
-    if (at == std::string::npos || at == 0 || at + 1 == text.size())
-      throw ConfigError("--label " + text + ": wants KIND=LABEL, for example gps=GPS_RTK_REAR");
-    if (!out.labels.emplace(text.substr(0, at), text.substr(at + 1)).second)
-      throw ConfigError("--label " + text + ": " + text.substr(0, at) + " is given twice");
-  }
+  out.labels = labelMap(options.labels);
   return out;
 }
 

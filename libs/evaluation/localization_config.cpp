@@ -128,7 +128,8 @@ std::map<std::string, std::string> labelMap(const std::vector<std::string>& word
       throw ConfigError("--label " + w + ": '" + kind + "' is no kind of sensor" +
                         (near.empty() ? "" : "; did you mean '" + near + "'?"));
     }
-    out[kind] = w.substr(eq + 1);
+    if (!out.emplace(kind, w.substr(eq + 1)).second)
+      throw ConfigError("--label " + w + ": " + kind + " is given twice");
   }
   return out;
 }

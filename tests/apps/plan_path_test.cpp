@@ -116,7 +116,7 @@ TEST_F(PlanPath, WhatIsWrongIsOneLineWithItsExitCode) {
   expect("--map room.yaml --pairs pairs.csv", 4, "pairs.csv:3: column 4 is no number");
   expect("--map room.yaml --start 1,1 --goal 2,2 --planner prmstar --space dubins -o p", 2,
          "prmstar cannot plan in the space dubins, as its roadmap knows no directions; take reeds-shepp");
-  expect("--map room.yaml --start 1,1 --goal 2,2 --planner bitstar --space dubins -o p", 2,
+  expect("--map room.yaml --start 1,1 --goal 2,2 --planner bitstar --space dubins -o q", 2,
          "bitstar cannot plan in the space dubins, as its samples know no directions; take reeds-shepp");
 }
 
