@@ -20,6 +20,8 @@
 namespace sidestep {
 namespace {
 
+constexpr uint64_t kEnoughToJudge = 30;  // measurements of a sensor, for a word on its noise
+
 double steadySeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -233,6 +235,9 @@ LocalizationMetrics Run::metrics() const {
     out.refused = s.refused;
     out.nis_dof = s.nis_dof;
     if (s.nis_count > 0) out.mean_nis = s.nis_sum / static_cast<double>(s.nis_count);
+    if (s.nis_count >= kEnoughToJudge && config_.filter == "ekf")
+      out.consistency =
+          judge(*out.mean_nis, s.nis_count, s.nis_dof, config_.ekf.gate ? config_.ekf.gate_probability : 1);
   }
   for (const auto& [label, reasons] : reader_.refused())
     for (const auto& [reason, n] : reasons) {

@@ -74,7 +74,7 @@ class YamlWriter final : public ParamVisitor {
   void texts(const std::string& key, std::vector<std::string>& v, const std::string& m) override {
     std::vector<std::string> q;
     for (const auto& s : v) q.push_back(quoted(s));
-    line(key, "[" + joined(q, ", ") + "]", m);
+    line(key, std::string("[").append(joined(q, ", ")).append("]"), m);
   }
   void table(const std::string& key, const std::vector<std::string>& columns, Table& rows,
              const std::string& m) override {
@@ -166,7 +166,9 @@ class MarkdownWriter final : public ParamVisitor {
     section(key + ".NAME", m, [&](ParamVisitor& v) { fields("", v); });
   }
   void overlay(const std::string& key, std::string&, const std::string& m) override { row(key, "", "", "a group", m); }
-  std::string str() const { return "| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n" + out_.str(); }
+  std::string str() const {
+    return "| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n" + out_.str();
+  }
 
  private:
   void row(const std::string& key, const std::string& value, const std::string& unit, const std::string& allowed,

@@ -58,11 +58,19 @@ Json toJson(const std::optional<TrajectoryErrors>& errors) {
 Json toJson(const SensorCounts& counts) {
   Json refused = Json::object();
   for (const auto& [reason, count] : counts.refused) refused[reason] = count;
-  return {{"read", counts.read},
-          {"used", counts.used},
-          {"refused", refused},
-          {"mean_nis", orNull(counts.mean_nis)},
-          {"nis_dof", counts.nis_dof}};
+  Json json = {{"read", counts.read},
+               {"used", counts.used},
+               {"refused", refused},
+               {"mean_nis", orNull(counts.mean_nis)},
+               {"nis_dof", counts.nis_dof}};
+  if (const auto& c = counts.consistency) {
+    json["nis_expected"] = orNull(c->band.expected);
+    json["nis_low"] = orNull(c->band.low);
+    json["nis_high"] = orNull(c->band.high);
+    json["sd_factor"] = orNull(c->sd_factor);
+    json["verdict"] = c->verdict;
+  }
+  return json;
 }
 
 std::string cell(const std::optional<double>& value, int decimals) {
@@ -75,11 +83,11 @@ std::string cell(const std::optional<double>& value, int decimals) {
 }
 
 std::string tableRow(const std::string& title, const TrajectoryErrors& errors) {
-  const auto heading = errors.heading_samples > 0 ? std::optional(errors.heading_mean_error_deg) : std::nullopt;
   std::string row = title;
   for (const double value : {errors.mean_error_m, errors.rmse_m, errors.max_error_m, errors.final_error_m})
     row += cell(value, 3);
-  return row + cell(heading, 2) + cell(errors.mean_nees, 2) + "\n";
+  return row + (errors.heading_samples > 0 ? cell(errors.heading_mean_error_deg, 2) : cell(std::nullopt, 2)) +
+         cell(errors.mean_nees, 2) + "\n";
 }
 
 }  // namespace
@@ -115,6 +123,8 @@ std::string errorTable(const LocalizationMetrics& metrics) {
   table += "\n";
   if (metrics.odometry) table += tableRow("odometry  ", *metrics.odometry);
   if (metrics.estimate) table += tableRow("estimate  ", *metrics.estimate);
+  for (const auto& [label, counts] : metrics.sensors)
+    if (counts.consistency) table += consistencyLine(label, *counts.mean_nis, *counts.consistency) + "\n";
   return table;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/consistency.h"
 #include "evaluation/trajectory_error.h"
 
 namespace sidestep {
@@ -17,13 +18,14 @@ struct SensorCounts {
   std::map<std::string, uint64_t> refused;  ///< by reason
   std::optional<double> mean_nis;           ///< consistent if close to nis_dof
   int nis_dof = 0;
+  std::optional<Consistency> consistency;  ///< nothing for few measurements, or a filter without NIS
 };
 
 /// All that metrics.json says about a run.
 struct LocalizationMetrics {
-  double duration_s = 0;      ///< of the log
-  double wall_s = 0;          ///< of the computation
-  double peak_memory_mb = 0;  ///< [MiB], see peakMemoryMb()
+  double duration_s = 0;                               ///< of the log
+  double wall_s = 0;                                   ///< of the computation
+  double peak_memory_mb = 0;                           ///< [MiB], see peakMemoryMb()
   std::optional<TrajectoryErrors> estimate, odometry;  ///< nothing without truth
   std::map<std::string, SensorCounts> sensors;         ///< by label
   std::string truth_source;                            ///< empty without truth
@@ -37,7 +39,8 @@ std::string metricsJson(const LocalizationMetrics& metrics);
 /// @throws DatasetError if the text did not reach the disk.
 void writeMetrics(const LocalizationMetrics& metrics, const std::string& file);
 
-/// The table a program prints: rows odometry and estimate (those that are known); `-` for what is not known.
+/// The table a program prints, and a line a sensor on its noise: rows odometry and estimate (those that are known); `-`
+/// for what is not known.
 std::string errorTable(const LocalizationMetrics& metrics);
 
 /// Largest resident memory of this process so far [MiB].

@@ -62,7 +62,7 @@ bool PoseFile::readNumbers(const std::string& line) {
     const size_t end = std::min(line.find_first_of(kSeparators, begin), line.size());
     const std::string token = line.substr(begin, end - begin);
     const auto value = toNumber(token);
-    if (!value) fail("'" + token.substr(0, 40) + "' is not a number");
+    if (!value) fail(std::string("'").append(token, 0, 40).append("' is not a number"));
     if (!std::isfinite(*value)) fail("'" + token + "' is not finite");
     if (count < numbers_.size()) numbers_[count] = *value;
     ++count;

@@ -67,11 +67,11 @@ inline double weightExp(double a) {
                                static_cast<int64_t>(std::bit_cast<uint64_t>(shifted) << 52));
 }
 
-/// Calls f(i, Pair()) for i = 0, 2, ... and, if `n` is odd, f(n - 1, double()) for the last one.
+/// Calls f(i, a Pair) for i = 0, 2, ... and, if `n` is odd, f(n - 1, double()) for the last one.
 template <typename F>
 inline void forPairs(Eigen::Index n, const F& f) {
   Eigen::Index i = 0;
-  for (; i + 2 <= n; i += 2) f(i, Pair());
+  for (; i + 2 <= n; i += 2) f(i, Pair(Pair::Zero()));
   if (i < n) f(i, double());
 }
 inline Pair at(const double* a, Eigen::Index i, Pair) { return Eigen::Map<const Pair>(a + i); }

@@ -28,7 +28,7 @@ LocalizationMetrics example() {
   errors.mean_nees.reset();
   errors.max_error_m = std::numeric_limits<double>::infinity();
   metrics.odometry = errors;
-  metrics.sensors["gps"] = {10, 8, {{"outlier", 2}}, 1.5, 2};
+  metrics.sensors["gps"] = {10, 8, {{"outlier", 2}}, 1.5, 2, {}};
   metrics.sensors["imu"].read = 4;
   return metrics;
 }
