@@ -15,8 +15,8 @@ namespace sidestep {
 namespace {
 
 /// Colours of Okabe and Ito, told apart with any colour vision.
-const std::array<const char*, 8> kColours = {"#0072b2", "#e69f00", "#009e73", "#d55e00",
-                                             "#cc79a7", "#56b4e9", "#f0e442", "#404040"};
+const std::array<const char*, 12> kColours = {"#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9",
+                                              "#f0e442", "#404040", "#882255", "#332288", "#999933", "#bbbbbb"};
 
 const char* colour(size_t i) { return kColours[i % kColours.size()]; }
 

@@ -20,12 +20,6 @@ double chiSquareCdf(double q, int dof) {
   const double one = std::erf(std::sqrt(q / 2));
   return dof == 1 ? one : one - std::sqrt(2 * q / M_PI) * std::exp(-q / 2);
 }
-/// What measurements tell: positions (fixes, ranges), headings, the gyro's bias. While one sensor of a group is
-/// believed, another that is refused is the one at fault.
-size_t group(const Measurement& m) {
-  if (m.kind == Measurement::Kind::kStill) return 2;
-  return m.kind == Measurement::Kind::kHeading ? 1 : 0;
-}
 }  // namespace
 
 double chiSquareQuantile(double probability, int dof) {
@@ -98,7 +92,7 @@ void Ekf<N>::start(const PoseBelief& belief) {
     P_(kTurnScale, kTurnScale) = params_.turn_scale_sd * params_.turn_scale_sd;
     P_(kPull, kPull) = params_.turn_pull_sd * params_.turn_pull_sd;
   }
-  refused_since_.fill(0);
+  patience_.clear();
 }
 
 template <int N>
@@ -206,15 +200,6 @@ Correction Ekf<N>::correctBias(const Measurement& m) {
 }
 
 template <int N>
-bool Ekf<N>::relaxGate(const Measurement& m) {
-  double& since = refused_since_[group(m)];
-  if (since == 0) since = m.time_s;
-  if (m.time_s - since < params_.gate_patience_s) return false;
-  since = 0;
-  return true;
-}
-
-template <int N>
 template <int M>
 Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1>& nu,
                           const Eigen::Matrix<double, M, N>& H) {
@@ -226,7 +211,7 @@ Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1
   Correction result{Correction::Reason::kAccepted, nu.dot(S_inverse * nu), M};
   if (!std::isfinite(result.nis) || result.nis < 0) return {Correction::Reason::kNotFinite, 0, M};
   if (params_.gate && result.nis > gate_[M]) {
-    if (!relaxGate(m)) {
+    if (!patience_.lostBy(m, params_.gate_patience_s)) {
       result.reason = Correction::Reason::kGated;
       return result;
     }
@@ -236,7 +221,7 @@ Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1
     S = H * before * H.transpose() + R;
     S_inverse = S.inverse();
   } else {
-    refused_since_[group(m)] = 0;
+    patience_.accepted(m);
   }
   const Eigen::Matrix<double, N, M> K = before * H.transpose() * S_inverse;  // (3.3)
   const State x = x_ + K * nu;                                               // (2.13)
@@ -257,11 +242,11 @@ PoseBelief Ekf<N>::estimate() const {
 
 template <int N>
 void Ekf<N>::save(std::vector<double>& out) const {
-  out.resize(N + N * N + kGroups);
+  out.resize(N + N * N + Patience::kKinds);
   double* p = out.data();
   p = std::copy(x_.data(), x_.data() + N, p);
   p = std::copy(P_.data(), P_.data() + N * N, p);
-  std::copy(refused_since_.begin(), refused_since_.end(), p);
+  patience_.save(p);
 }
 
 template <int N>
@@ -271,7 +256,7 @@ void Ekf<N>::restore(const std::vector<double>& state) {
   p += N;
   std::copy(p, p + N * N, P_.data());
   p += N * N;
-  std::copy(p, p + kGroups, refused_since_.begin());
+  patience_.restore(p);
 }
 
 template class Ekf<3>;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/params.h"
+#include "localization/patience.h"
 #include "localization/pose_filter.h"
 
 namespace sidestep {
@@ -67,15 +68,13 @@ class Ekf final : public PoseFilter {
   template <int M>
   Correction correctPose(const Measurement& m);
   Correction correctBias(const Measurement& m);
-  bool relaxGate(const Measurement& m);
   mrpt::math::TPose2D pose() const { return {x_(0), x_(1), x_(2)}; }
 
-  static constexpr int kGroups = 3;
   EkfParams params_;
   std::array<double, 4> gate_{};  // NIS bound by degrees of freedom
   State x_ = State::Zero();
   Covariance P_ = Covariance::Zero();
-  std::array<double, kGroups> refused_since_{};  // time of the first refusal in a row, 0 = none
+  Patience patience_;
 };
 
 /// The smallest EKF that does what the parameters ask for.

@@ -87,8 +87,8 @@ class Localizer {
   void laser(int stream, double time_s, const mrpt::obs::CObservation2DRangeScan& o);
   /// No more observations come: what waits is processed.
   void finish();
-  /// From now on estimates are held until `finish`, which smooths them by the whole log (Smoother: memory grows with it);
-  /// `finish` throws Error if the filter has no smoother. To be called before the first observation.
+  /// From now on estimates are held until `finish`, which smooths them by the whole log (Smoother: memory grows with
+  /// it); `finish` throws Error if the filter has no smoother. To be called before the first observation.
   void smoothAtEnd() { smoother_.emplace(); }
 
   /// Estimates that became ready since the last call, in time order.

@@ -32,6 +32,7 @@ struct Measurement {
   std::shared_ptr<const Scan> scan;                         ///< for kScan
   bool heading_has_offset = false;  ///< a filter may estimate the constant offset of the heading
 
+  bool tellsHeading() const { return kind == Kind::kHeading || kind == Kind::kPositionHeading; }
   int size() const { return kind == Kind::kPositionHeading ? 3 : kind == Kind::kPosition ? 2 : 1; }
 };
 

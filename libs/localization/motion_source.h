@@ -16,8 +16,8 @@ class MotionSource {
   struct Step {
     double from_s = 0, to_s = 0;
     MotionStep motion;
-    mrpt::math::TPose2D T_from_to;        ///< what the odometry alone says
-    std::optional<double> resting_rate;   ///< mean of the gyro over a stretch of standing still [rad/s]
+    mrpt::math::TPose2D T_from_to;       ///< what the odometry alone says
+    std::optional<double> resting_rate;  ///< mean of the gyro over a stretch of standing still [rad/s]
   };
 
   void addYawRate(double time_s, double rate);

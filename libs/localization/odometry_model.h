@@ -21,7 +21,7 @@ struct OdometryParams {
   double track_m = 0;        // m
   double scale = 1;
   double gap_s = 2;
-  double jump_speed = 60;  // m/s
+  double jump_speed = 60;          // m/s
   double still_speed = 0.005;      // m/s
   double still_turn_rate = 0.005;  // rad/s
   MotionNoiseParams noise;
@@ -33,15 +33,15 @@ struct OdometryParams {
 
 /// The motion between two odometry readings, as the odometry tells it.
 struct OdometryIncrement {
-  double from_s = 0, to_s = 0;      ///< stamps of the two readings [s]
-  mrpt::math::TPose2D T_from_to;    ///< the displacement, in the frame of the first [m, rad]
-  MotionStep step;                  ///< the same as arc and turn, with noise
+  double from_s = 0, to_s = 0;    ///< stamps of the two readings [s]
+  mrpt::math::TPose2D T_from_to;  ///< the displacement, in the frame of the first [m, rad]
+  MotionStep step;                ///< the same as arc and turn, with noise
 };
 
 /// Dead reckoning from poses, velocities or encoder ticks (2.1)-(2.3): turns odometry observations into increments.
 ///
-/// `auto` takes poses if they ever move, else ticks if there are any and the wheels are known, else velocities. A reading
-/// that would mean a speed over `jump_speed` is a restarted odometry: it starts anew and gives no increment.
+/// `auto` takes poses if they ever move, else ticks if there are any and the wheels are known, else velocities. A
+/// reading that would mean a speed over `jump_speed` is a restarted odometry: it starts anew and gives no increment.
 class OdometryModel {
  public:
   explicit OdometryModel(const OdometryParams& params);

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "localization/particle_cloud.h"
+#include "localization/patience.h"
 #include "localization/pose_filter.h"
 #include "localization/resampling.h"
 
@@ -94,7 +95,6 @@ class ParticleFilter : public PoseFilter {
   void weighAsPrinted(int size);
   void moveTowards(const Measurement& m, const Eigen::Matrix3d& S, const Eigen::Matrix3d& R);
   void updateOffsets(const Measurement& m);
-  bool outOfPatience(const Measurement& m);
   void inject(const Measurement& m);
   mrpt::math::TPose2D drawFrom(const Measurement& m, Eigen::Index like);
   void roughen(size_t count);
@@ -102,7 +102,6 @@ class ParticleFilter : public PoseFilter {
   auto row(int k) const { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
   auto row(int k) { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
 
-  static constexpr size_t kGroups = 3;
   ResamplingScheme scheme_;
   std::array<double, 4> gate_{};  // NIS bound by degrees of freedom
   Resampler resampler_;
@@ -110,7 +109,7 @@ class ParticleFilter : public PoseFilter {
   std::vector<uint32_t> indices_;
   std::array<Eigen::ArrayXd, 3> nu_;  // innovations, a component an array
   double bias_ = 0, bias_var_ = 0;
-  std::array<double, kGroups> refused_since_{};  // time of the first refusal in a row, 0 = none
+  Patience patience_;
 };
 
 std::unique_ptr<PoseFilter> makeParticleFilter(const PfParams& params, uint64_t seed);

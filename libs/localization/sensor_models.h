@@ -32,11 +32,11 @@ struct GpsParams {
 struct ImuParams {
   std::string heading = "auto";
   std::string yaw_rate = "auto";
-  double heading_sd = 0.0873;     // rad
+  double heading_sd = 0.0873;  // rad
   double heading_correlation_s = 0;
-  double heading_offset = 0;      // rad
-  double yaw_rate_bias = 0;       // rad/s
-  double yaw_rate_sd = 0.003;     // rad/s, of a 1 s average
+  double heading_offset = 0;   // rad
+  double yaw_rate_bias = 0;    // rad/s
+  double yaw_rate_sd = 0.003;  // rad/s, of a 1 s average
   double yaw_rate_scale = 1;
   double delay_s = 0;
   double max_yaw_rate_period_s = 0.2;

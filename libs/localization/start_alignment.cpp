@@ -8,14 +8,6 @@
 #include <cmath>
 
 namespace sidestep {
-namespace {
-
-mrpt::math::TPoint2D rotated(double yaw, const mrpt::math::TPoint2D& p) {
-  return {std::cos(yaw) * p.x - std::sin(yaw) * p.y, std::sin(yaw) * p.x + std::cos(yaw) * p.y};
-}
-
-}  // namespace
-
 void StartParams::visit(ParamVisitor& v) {
   v.flag("pose_given", pose_given, "the robot starts at the pose below; else it is found from fixes, or is the origin");
   v.number("x_m", x_m, {-1e7, 1e7}, "m", "start");
@@ -47,7 +39,8 @@ void StartAlignment::track(double time_s, const mrpt::math::TPose2D& T_start_bas
 
 void StartAlignment::fix(const Measurement& m) {
   if (!m.z.allFinite() || !m.R.allFinite()) return;
-  const auto lever = rotated(T_start_base_.phi, {m.p_base_sensor.x(), m.p_base_sensor.y()});
+  const auto lever =
+      mrpt::math::TPose2D(0, 0, T_start_base_.phi).composePoint({m.p_base_sensor.x(), m.p_base_sensor.y()});
   if (pairs_.size() < 5000)
     pairs_.push_back({{T_start_base_.x + lever.x, T_start_base_.y + lever.y}, {m.z.x(), m.z.y()}, m.R(0, 0)});
 }
@@ -80,7 +73,7 @@ std::optional<PoseBelief> StartAlignment::fromHeading() const {
   if (!heading_ || pairs_.empty() || heading_offset_sd_ > 0.6) return std::nullopt;
   PoseBelief b;
   b.mean.phi = mrpt::math::wrapToPi(*heading_ - heading_track_->phi);
-  const auto ahead = rotated(b.mean.phi, pairs_.front().track);
+  const auto ahead = mrpt::math::TPose2D(0, 0, b.mean.phi).composePoint(pairs_.front().track);
   b.mean.x = pairs_.front().fix.x - ahead.x;
   b.mean.y = pairs_.front().fix.y - ahead.y;
   const double v = pairs_.front().variance;
@@ -108,7 +101,7 @@ std::optional<PoseBelief> StartAlignment::fromTrack(bool last_chance) const {
   if (!last_chance && (pairs_.size() < 3 || reach < wanted)) return std::nullopt;
   PoseBelief out;
   out.mean.phi = dot * dot + cross * cross > 0 ? std::atan2(cross, dot) : 0;
-  const auto turned = rotated(out.mean.phi, a);
+  const auto turned = mrpt::math::TPose2D(0, 0, out.mean.phi).composePoint(a);
   out.mean.x = b.x - turned.x;
   out.mean.y = b.y - turned.y;
   // Errors of nearby fixes are alike, so that n of them are taken to be worth two.

@@ -11,58 +11,25 @@
 #include <random>
 
 #include "support/jacobian.h"
+#include "support/measurements.h"
 
 namespace sidestep {
 namespace {
+
+using support::beliefOf;
+using support::fix;
+using support::saved;
+using support::stepOf;
+
+Measurement heading(double time_s, double yaw, double sd) { return support::heading(time_s, yaw, sd, true); }
 
 using Kind = Measurement::Kind;
 using Reason = Correction::Reason;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-PoseBelief beliefOf(const mrpt::math::TPose2D& mean, double sd_xy, double sd_yaw) {
-  PoseBelief b;
-  b.mean = mean;
-  b.covariance.diagonal() << sd_xy * sd_xy, sd_xy * sd_xy, sd_yaw * sd_yaw;
-  return b;
-}
-
-Measurement fix(double time_s, double x, double y, double sd) {
-  Measurement m;
-  m.time_s = time_s;
-  m.z << x, y, 0;
-  m.R(0, 0) = m.R(1, 1) = sd * sd;
-  return m;
-}
-
-Measurement heading(double time_s, double yaw, double sd) {
-  Measurement m;
-  m.kind = Kind::kHeading;
-  m.time_s = time_s;
-  m.z(0) = yaw;
-  m.R(0, 0) = sd * sd;
-  m.heading_has_offset = true;
-  return m;
-}
-
-MotionStep stepOf(double dt, double distance, double turn, double distance_sd = 0, double turn_sd = 0) {
-  MotionStep s;
-  s.dt_s = dt;
-  s.distance_m = distance;
-  s.turn_rad = turn;
-  s.distance_var = distance_sd * distance_sd;
-  s.turn_var = turn_sd * turn_sd;
-  return s;
-}
-
 bool finite(const PoseBelief& b) {
   return std::isfinite(b.mean.x) && std::isfinite(b.mean.y) && std::isfinite(b.mean.phi) && b.covariance.allFinite();
-}
-
-std::vector<double> saved(const PoseFilter& f) {
-  std::vector<double> out;
-  f.save(out);
-  return out;
 }
 
 // ---- the chi-square gate's bounds ----

@@ -29,10 +29,13 @@ LocalizerParams fromOrigin() {
 
 /// A localizer with one stream of each kind; seconds count from the start of the log.
 struct Robot {
-  explicit Robot(const LocalizerParams& params = fromOrigin(), const Expectation& expect = {}, const EkfParams& ekf = {})
+  explicit Robot(const LocalizerParams& params = fromOrigin(), const Expectation& expect = {},
+                 const EkfParams& ekf = {})
       : filter(makeEkf(ekf)), view(filter.get()), localizer(params, std::move(filter), expect) {}
 
-  void wheels(double t, const TPose2D& pose) { localizer.odometry(kWheels, kStart_s + t, support::odometryAt(t, pose)); }
+  void wheels(double t, const TPose2D& pose) {
+    localizer.odometry(kWheels, kStart_s + t, support::odometryAt(t, pose));
+  }
   void speeds(double t, double v, double w) { localizer.odometry(kWheels, kStart_s + t, support::velocityAt(t, v, w)); }
   void fix(double t, double x, double y) { localizer.position(kGps, kStart_s + t, x, y); }
   void yaw(double t, double angle) { localizer.imu(kImu, kStart_s + t, support::yaw(angle)); }

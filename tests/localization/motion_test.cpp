@@ -6,16 +6,12 @@
 
 #include <cmath>
 
+#include "support/measurements.h"
+
 namespace sidestep {
 namespace {
 
-MotionStep stepOf(double dt, double distance, double turn) {
-  MotionStep s;
-  s.dt_s = dt;
-  s.distance_m = distance;
-  s.turn_rad = turn;
-  return s;
-}
+using support::stepOf;
 
 TEST(Moved, GoesAlongTheHeadingHalfWayThroughTheTurn) {
   // From (1, 2) heading 90 deg, 2 m and a turn of 60 deg: direction 120 deg, cos = -1/2, sin = sqrt(3)/2.
@@ -81,7 +77,8 @@ TEST(MotionNoise, IsOfEachStepAsPrintedWithoutANoisePeriod) {
   noise.a6 = 0.04;
   auto s = stepOf(0.1, -0.2, 0.05);  // v = -2, w = 0.5: noise goes with their sizes
   noise.apply(s);
-  // (3.2): sd_v = 0.05*2 + 0.01*0.5 = 0.105, sd_w = 0.02*2 + 0.05*0.5 = 0.065; (3.6): sd_gamma = 0.03*2 + 0.04*0.5 = 0.08.
+  // (3.2): sd_v = 0.05*2 + 0.01*0.5 = 0.105, sd_w = 0.02*2 + 0.05*0.5 = 0.065; (3.6): sd_gamma = 0.03*2 + 0.04*0.5 =
+  // 0.08.
   EXPECT_NEAR(s.distance_var, std::pow(0.105 * 0.1, 2), 1e-15);
   EXPECT_NEAR(s.turn_var, (0.065 * 0.065 + 0.08 * 0.08) * 0.1 * 0.1, 1e-15);
   // Ten times the rate, a tenth of the variance: N steps of (sd dt)^2 are T^2 sd^2 / N.

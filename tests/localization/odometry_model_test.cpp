@@ -36,8 +36,8 @@ void expectOnCircle(const TPose2D& end, double tolerance) {
 }
 
 TEST(OdometryModel, FollowsPosesOnACircle) {
-  expectOnCircle(endOfTrack({}, [](double t) { return support::odometryAt(t, support::onCircle(kSpeed, kTurnRate, t)); }),
-                 1e-9);
+  expectOnCircle(
+      endOfTrack({}, [](double t) { return support::odometryAt(t, support::onCircle(kSpeed, kTurnRate, t)); }), 1e-9);
 }
 
 TEST(OdometryModel, FollowsVelocitiesOnACircle) {

@@ -7,8 +7,12 @@
 
 #include <cmath>
 
+#include "support/measurements.h"
+
 namespace sidestep {
 namespace {
+
+using support::beliefOf;
 
 ParticleCloud cloudOf(const std::vector<std::array<double, 4>>& rows) {
   ParticleCloud c;
@@ -23,13 +27,6 @@ ParticleCloud cloudOf(const std::vector<std::array<double, 4>>& rows) {
     c.offset[i] = 0;
   }
   return c;
-}
-
-PoseBelief beliefOf(const mrpt::math::TPose2D& mean, double sd_xy, double sd_yaw) {
-  PoseBelief b;
-  b.mean = mean;
-  b.covariance.diagonal() << sd_xy * sd_xy, sd_xy * sd_xy, sd_yaw * sd_yaw;
-  return b;
 }
 
 TEST(ParticleCloud, BeliefIsTheWeightedMeanAndCovariance) {

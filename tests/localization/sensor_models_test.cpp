@@ -68,9 +68,9 @@ TEST(GpsModel, GoesByTheFixsOwnQualityWhenAsked) {
   params.sd_m = 3;
   params.use_hdop = 2;
   GpsModel gps(params);
-  EXPECT_NEAR(gps.measurement(kStart_s, fixAt(45, 9, 1.5))->R(0, 0), 9, 1e-12);      // 2 * 1.5
-  EXPECT_NEAR(gps.measurement(kStart_s + 1, fixAt(45, 9, 4))->R(1, 1), 64, 1e-12);   // 2 * 4
-  EXPECT_NEAR(gps.measurement(kStart_s + 2, fixAt(45, 9))->R(1, 1), 9, 1e-12);       // none: sd_m
+  EXPECT_NEAR(gps.measurement(kStart_s, fixAt(45, 9, 1.5))->R(0, 0), 9, 1e-12);     // 2 * 1.5
+  EXPECT_NEAR(gps.measurement(kStart_s + 1, fixAt(45, 9, 4))->R(1, 1), 64, 1e-12);  // 2 * 4
+  EXPECT_NEAR(gps.measurement(kStart_s + 2, fixAt(45, 9))->R(1, 1), 9, 1e-12);      // none: sd_m
 }
 
 TEST(GpsModel, RaisesTheNoiseOfFixesWhoseErrorsAreAlike) {

@@ -11,10 +11,13 @@
 #include "localization/ekf.h"
 #include "localization/localizer.h"
 #include "localization/particle_filter.h"
+#include "support/measurements.h"
 #include "support/readings.h"
 
 namespace sidestep {
 namespace {
+
+using support::saved;
 
 MotionStep ahead(double distance_m, double distance_var, double turn_rad = 0, double turn_var = 0) {
   MotionStep step;
@@ -32,12 +35,6 @@ Measurement fix(double x, double y, double sd) {
   m.z << x, y, 0;
   m.R(0, 0) = m.R(1, 1) = sd * sd;
   return m;
-}
-
-std::vector<double> saved(const PoseFilter& f) {
-  std::vector<double> s;
-  f.save(s);
-  return s;
 }
 
 EkfParams plain() {

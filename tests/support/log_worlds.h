@@ -18,25 +18,16 @@
 #include "datasets/log_reader.h"
 #include "datasets/log_writer.h"
 #include "datasets/object_archive.h"
+#include "support/temporary_folder.h"
 
 namespace sidestep::worlds {
 
 constexpr double kStart_s = 1.6e9;
 
-/// A folder of its own for one test, gone afterwards.
-class TemporaryFolder {
+/// A folder of its own for one test, whose files go by their names as text.
+class TemporaryFolder : public support::TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "sidestep-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
+  std::string operator/(const std::string& name) const { return (path() / name).string(); }
 };
 
 template <class Observation>

@@ -16,7 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "support/temporary_folder.h"
+
 namespace sidestep::testing {
+
+using support::TemporaryFolder;
 
 inline std::string readFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -34,27 +38,6 @@ inline std::vector<std::string> linesOf(const std::string& text) {
   return out;
 }
 
-/// A folder of its own that goes away with it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "sidestep-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 struct ProgramResult {
   int exit_code = -1;  ///< 128 + signal if it was killed
   std::string out, err;
@@ -63,7 +46,8 @@ struct ProgramResult {
 /// Runs a shell command as a user would, our programs on the PATH, in `folder` (the source tree if empty).
 inline ProgramResult runShell(const std::string& command, const std::filesystem::path& folder = SIDESTEP_SOURCE) {
   const TemporaryFolder t;
-  writeFile(t / "command.sh", "PATH=" SIDESTEP_BIN ":$PATH\ncd '" + folder.string() + "' || exit 99\n" + command + "\n");
+  writeFile(t / "command.sh",
+            "PATH=" SIDESTEP_BIN ":$PATH\ncd '" + folder.string() + "' || exit 99\n" + command + "\n");
   const std::string line = "sh '" + (t / "command.sh").string() + "' >'" + (t / "out").string() + "' 2>'" +
                            (t / "err").string() + "' </dev/null";
   const int status = std::system(line.c_str());
