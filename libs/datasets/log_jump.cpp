@@ -13,8 +13,7 @@ bool LogJump::apply(double logged_s, LogEntry& entry) {
   const bool after = logged_s >= to_s_;
   if (!after && entry.kind != SensorKind::kOdometry) return true;
   if (after) {
-    entry.observation =
-        std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry.observation->duplicateGetSmartPtr());
+    entry.observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry.observation->duplicateGetSmartPtr());
     entry.time_s -= to_s_ - from_s_;
     entry.observation->timestamp = mrpt::Clock::fromDouble(entry.time_s);
   }

@@ -16,7 +16,7 @@ using Maker = std::function<std::unique_ptr<StudyRunner>(const std::string&)>;
 
 const std::map<std::string, Maker>& makers() {
   static const std::map<std::string, Maker> table = {{"laser", makeLaserRunner},
-                                                    {"localization", makeLocalizationRunner}};
+                                                     {"localization", makeLocalizationRunner}};
   return table;
 }
 

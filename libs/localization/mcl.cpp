@@ -12,18 +12,18 @@
 namespace sidestep {
 namespace {
 constexpr size_t kMemorySize = 9;
-constexpr double kMostLooks = 20000;  // candidates for rivals, at a time
-constexpr double kWide_m = 0.5;  // a cloud with a larger sd may be several places
+constexpr double kLooksPerParticle = 4;  // candidates for rivals at a time, while nothing is amiss
+constexpr double kWide_m = 0.5;          // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
-constexpr double kHere_m = 0.5;       // particles nearer than this stand for the estimate
+constexpr double kHere_m = 0.5;                     // particles nearer than this stand for the estimate
 constexpr double kNewView_m = 0.5, kNewView = 0.5;  // way [m] or turn [rad] after which a view says all anew
-constexpr double kLostPrior = 0.1;  // weight of what is drawn anew
-constexpr double kLeastExplained = 0.9;  // below it, other places are looked for in earnest
+constexpr double kLostPrior = 0.1;                  // weight of what is drawn anew
+constexpr double kLeastExplained = 0.9;             // below it, other places are looked for in earnest
 
 /// Logistic regression of "off by more than 1 m" on the log-odds of the particles that are farther than that from the
 /// estimate, log(1 + evidence for a rival), the root of the share of beams through walls, and exp(-scans / 3). How much
 /// a map explains is not among them: it differs from world to world (doc/laser-localization.md).
-constexpr double kLost[5] = {-4.21, 0.13, 1.46, 9.93, 4.42};
+constexpr double kLost[5] = {-3.73, 0.18, 1.43, 9.97, 4.03};
 }  // namespace
 
 MclParams::MclParams() {
@@ -52,8 +52,10 @@ void MclParams::visit(ParamVisitor& v) {
   v.angle("map_sd_deg", map_sd_turn, {0, 90}, "the same for the heading");
   v.number("average_slow", average_slow, {0.0001, 1}, "", "weight of a scan in the slow average of fit");
   v.number("average_fast", average_fast, {0.0001, 1}, "", "weight of a scan in the fast one");
-  v.number("lost_share", recovery_share, {0, 0.9}, "", "share of the particles drawn anew when another place fits better");
-  v.number("lost_below", recovery_below, {0, 1}, "", "places are looked for in earnest: fast average below this part of the slow one");
+  v.number("lost_share", recovery_share, {0, 0.9}, "",
+           "share of the particles drawn anew when another place fits better");
+  v.number("lost_below", recovery_below, {0, 1}, "",
+           "places are looked for in earnest: fast average below this part of the slow one");
   v.number("lost_gain", recovery_gain, {0, 30}, "",
            "evidence for another place, as a logarithm of odds, at which particles are drawn anew there");
   v.number("lost_pause_s", recovery_pause_s, {0, 1000}, "s", "other places are looked for not more often than this");
@@ -61,7 +63,11 @@ void MclParams::visit(ParamVisitor& v) {
 }
 
 Mcl::Mcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel> model, bool global)
-    : ParticleFilter(params.engine, seed), mcl_(params), model_(std::move(model)), global_(global), rivals_(static_cast<size_t>(params.rivals)) {
+    : ParticleFilter(params.engine, seed),
+      mcl_(params),
+      model_(std::move(model)),
+      global_(global),
+      rivals_(static_cast<size_t>(params.rivals)) {
   log_likelihood_.resize(static_cast<Eigen::Index>(cloud_.capacity()));
 }
 
@@ -216,7 +222,8 @@ ScanModel::Judgement Mcl::judgeHere(const mrpt::math::TPose2D& here, const Scan&
 }
 
 /// Is there a place that fits better, scan after scan? Then a share of the particles is drawn anew from there, as in
-/// augmented MCL (Thrun, Burgard & Fox 2005, table 8.3), and what comes next decides. If none does, the map is at fault.
+/// augmented MCL (Thrun, Burgard & Fox 2005, table 8.3), and what comes next decides. If none does, the map is at
+/// fault.
 /// @param fit   mean log-likelihood of the scan over the cloud
 /// @param news  how much of the view is new, 0 .. 1
 void Mcl::watch(const Measurement& m, double fit, double news) {
@@ -235,7 +242,8 @@ void Mcl::watch(const Measurement& m, double fit, double news) {
   const auto count = static_cast<size_t>(mcl_.recovery_share * static_cast<double>(cloud_.size()));
   if (count > 0 && rivals_.evidence(here) >= mcl_.recovery_gain) recover(count);
   const bool doubtful = a.fast < mcl_.recovery_below * a.slow || a.explained < kLeastExplained;
-  const size_t looks = candidateCount(mcl_.candidates_per_m2 / 10, 1, doubtful ? kMostCandidates : kMostLooks);
+  const size_t looks = candidateCount(mcl_.candidates_per_m2 / 10, 1,
+                                      doubtful ? kMostCandidates : kLooksPerParticle * params_.particles);
   rivals_.renew(Candidates::draw(*model_, *m.scan, looks, random_), here);
 }
 

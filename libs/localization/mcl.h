@@ -19,10 +19,10 @@ struct MclParams {
   double min_turn = 0.02;  // rad
   double least_ess_share = 0.1;
   double candidates_per_m2 = 300;
-  double noise_scale = 2;
+  double noise_scale = 1.5;
   double slip_share = 0.1;
   double slip_m = 0.2;
-  double slip_turn = 0.0872664625997164788;  // rad
+  double slip_turn = 0.0872664625997164788;                    // rad
   double map_sd_m = 0.04, map_sd_turn = 0.008726646259971648;  // m, rad
   double average_slow = 0.02;
   double average_fast = 0.3;
@@ -30,7 +30,7 @@ struct MclParams {
   double recovery_below = 0.8;
   double recovery_gain = 20;
   double recovery_pause_s = 2;
-  int rivals = 64;
+  int rivals = 32;
 
   MclParams();
   void visit(ParamVisitor& v);

@@ -61,8 +61,12 @@ void Rivals::compare(const ScanModel& model, const Scan& scan, double fit, doubl
     const auto best = static_cast<size_t>(std::max_element(there, there + kTries) - there);
     r.pose = {x[best], y[best], yaw[best]};
     ++r.scans;
-    r.evidence = std::clamp(r.evidence + weight * (model.judge(scan, r.pose).fit - fit), 0.0, kMostEvidence);
+    r.evidence = std::max(0.0, r.evidence + weight * (model.judge(scan, r.pose).fit - fit));
   }
+  double most = 0;
+  for (const auto& r : rivals_) most = std::max(most, r.evidence);
+  if (most <= kMostEvidence) return;
+  for (auto& r : rivals_) r.evidence = std::max(0.0, r.evidence - (most - kMostEvidence));  // all by the same
 }
 
 void Rivals::renew(const Candidates& from, const TPose2D& estimate) {
@@ -84,7 +88,8 @@ void Rivals::renew(const Candidates& from, const TPose2D& estimate) {
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(looked), order.end(), better);
   for (size_t k = 0; k < looked && rivals_.size() < most_; ++k) {
     const TPose2D p{from.x[order[k]], from.y[order[k]], from.yaw[order[k]]};
-    const bool taken = std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) { return samePlace(r.pose, p); });
+    const bool taken =
+        std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) { return samePlace(r.pose, p); });
     if (!taken && apart(p, estimate) >= kApart_m) rivals_.push_back({p, 0, 0});
   }
 }

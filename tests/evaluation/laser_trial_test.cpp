@@ -61,8 +61,9 @@ TEST(MapDrive, TheSameSeedIsTheSameDriveAndClutterShortensBeams) {
   auto params = seconds(20);
   const auto a = driveOnMap(map, params, 5), b = driveOnMap(map, params, 5), c = driveOnMap(map, params, 6);
   ASSERT_EQ(a.entries.size(), b.entries.size());
-  EXPECT_EQ(odometryOf(a.entries.back().kind == SensorKind::kOdometry ? a.entries.back() : a.entries[a.entries.size() - 2]),
-            odometryOf(b.entries.back().kind == SensorKind::kOdometry ? b.entries.back() : b.entries[b.entries.size() - 2]));
+  EXPECT_EQ(
+      odometryOf(a.entries.back().kind == SensorKind::kOdometry ? a.entries.back() : a.entries[a.entries.size() - 2]),
+      odometryOf(b.entries.back().kind == SensorKind::kOdometry ? b.entries.back() : b.entries[b.entries.size() - 2]));
   EXPECT_NE(a.truth.back().pose, c.truth.back().pose);
   params.clutter = 40;
   const auto cluttered = driveOnMap(map, params, 5);
@@ -133,10 +134,10 @@ TEST(LaserMetrics, OfAHandfulOfSamples) {
     s.lost_told = told;
     samples.push_back(s);
   };
-  add(0, 3, 0.9);   // lost, told 0.9: -0.1 in the fifth gap
-  add(1, 0.5, 0.5); // not lost: +0.5 in the third
-  add(2, 2, 0.1);   // lost: -0.9 in the first
-  add(3, 0.2, 0.1); // +0.1 in the first
+  add(0, 3, 0.9);    // lost, told 0.9: -0.1 in the fifth gap
+  add(1, 0.5, 0.5);  // not lost: +0.5 in the third
+  add(2, 2, 0.1);    // lost: -0.9 in the first
+  add(3, 0.2, 0.1);  // +0.1 in the first
   const auto values = laserMetrics(samples, 1.5);
   const auto of = [&](const std::string& name) {
     const auto& names = laserMetricNames();
@@ -159,7 +160,7 @@ TEST(LaserMetrics, OfAHandfulOfSamples) {
 /// In rooms that nothing was fitted to, with things that the map does not know: it finds itself, and its word on being
 /// lost is as good as its word.
 TEST(LaserTrial, InNewRoomsTheRobotIsFoundAndTheProbabilityOfBeingLostIsCalibrated) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const std::array<const char*, 4> starts = {"anywhere", "wrong", "truth", "off"};
   double samples = 0, lost = 0, told = 0, found = 0, runs = 0;
   std::array<double, 5> gaps{};
