@@ -27,7 +27,7 @@ void LogJump::carry(LogEntry& entry, bool after) {
   Wheels& w = wheels_[entry.label];
   if (after && w.seen) {
     if (!w.anchored) {
-      w.moved = (mrpt::poses::CPose2D(w.last) - o->odometry).asTPose();
+      w.moved = (mrpt::poses::CPose2D(w.last) + (mrpt::poses::CPose2D() - o->odometry)).asTPose();  // last first^-1
       w.add_left = w.last_left - o->encoderLeftTicks;
       w.add_right = w.last_right - o->encoderRightTicks;
       w.anchored = true;

@@ -109,7 +109,9 @@ Correction Mcl::correct(const Measurement& m) {
 Correction Mcl::correctScan(const Measurement& m) {
   if (!m.scan || m.scan->size() == 0) return {Correction::Reason::kNotFinite, 0, 0};
   const bool moved = memory_.travel >= mcl_.min_travel_m || memory_.turn >= mcl_.min_turn;
-  if (!moved && memory_.scans > 0) return {Correction::Reason::kNothingNew, 0, 0};
+  // Where the robot may be anywhere, the first view counts again until it has counted once in full.
+  const bool settling = global_ && memory_.scans * model_->weight() < 1;
+  if (!moved && memory_.scans > 0 && !settling) return {Correction::Reason::kNothingNew, 0, 0};
   const double news = std::min(1.0, memory_.travel / kNewView_m + memory_.turn / kNewView);
   memory_.travel = memory_.turn = 0;
   ++memory_.scans;

@@ -190,15 +190,20 @@ TEST(LogDegrader, AJumpCutsTheLogAndClosesTheGapInTimeAndOdometry) {
 
 TEST(LogDegrader, AJumpTurnsOdometryIntoTheFrameOfItsLastReading) {
   auto in = world(4);
+  for (int t = 0; t < 2; ++t)  // before the cut it looks back from (5, 5)
+    dynamic_cast<mrpt::obs::CObservationOdometry&>(*in[4 * static_cast<size_t>(t)].observation).odometry =
+        mrpt::poses::CPose2D(5, 5, M_PI);
   auto& turned = dynamic_cast<mrpt::obs::CObservationOdometry&>(*in[4 * 2].observation);
   turned.odometry = mrpt::poses::CPose2D(2, 0, M_PI / 2);  // at the first reading after the cut it looks left
   auto& ahead = dynamic_cast<mrpt::obs::CObservationOdometry&>(*in[4 * 3].observation);
   ahead.odometry = mrpt::poses::CPose2D(2, 1, M_PI / 2);  // and then goes a metre ahead
   const auto out = degraded("events: {carried: {do: jump, from_s: 1, to_s: 2}}", in).of(SensorKind::kOdometry);
   ASSERT_EQ(out.size(), 3u);
-  EXPECT_NEAR(planar(out[2]).x, 1, 1e-12);
-  EXPECT_NEAR(planar(out[2]).y, 0, 1e-12);
-  EXPECT_NEAR(planar(out[2]).theta, 0, 1e-12);
+  EXPECT_NEAR(planar(out[1]).x, 5, 1e-12);
+  EXPECT_NEAR(planar(out[1]).y, 5, 1e-12);
+  EXPECT_NEAR(planar(out[2]).x, 4, 1e-12);
+  EXPECT_NEAR(planar(out[2]).y, 5, 1e-12);
+  EXPECT_NEAR(std::abs(planar(out[2]).theta), M_PI, 1e-12);
 }
 
 TEST(LogDegrader, TwoJumpsAddUpAndDelaysCrossThem) {

@@ -288,8 +288,12 @@ TEST(Rivals, GatherEvidenceOnlyWhereTheEstimateIsWrong) {
     if (right) EXPECT_LT(rivals.evidence(estimate), 3);
     if (!right) {
       EXPECT_GT(rivals.evidence(estimate), 20);
-      const auto p = rivals.draw(random);  // of the rival that has it
-      EXPECT_LT(std::hypot(p.x - truth.x, p.y - truth.y), 0.5);
+      int near = 0;
+      for (int k = 0; k < 100; ++k) {
+        const auto p = rivals.draw(random);
+        near += std::hypot(p.x - truth.x, p.y - truth.y) < 0.5;
+      }
+      EXPECT_GT(near, 80);
     }
     std::vector<double> state, again;
     rivals.save(state);
