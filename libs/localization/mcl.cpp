@@ -11,8 +11,11 @@
 
 namespace sidestep {
 namespace {
-constexpr size_t kMemorySize = 9;
-constexpr double kLooksPerParticle = 4;  // candidates for rivals at a time, while nothing is amiss
+constexpr size_t kMemorySize = 12;
+constexpr double kLooksPerParticle = 2;  // candidates for rivals at a time, while nothing is amiss
+constexpr double kComparedAfter = 0.25;  // share of a view that is new when rivals are compared with the estimate
+constexpr double kTold = 3;              // evidence for a rival at which the search goes on undiminished
+constexpr double kMostIdle = 3;          // a search that finds nothing doubles the pause to the next, so many times
 constexpr double kWide_m = 0.5;          // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
 constexpr double kHere_m = 0.5;                     // particles nearer than this stand for the estimate
@@ -238,15 +241,36 @@ void Mcl::watch(const Measurement& m, double fit, double news) {
   a.explained += mcl_.average_fast * (model_->explained(*m.scan, here) - a.explained);
   const auto judged = judgeHere(here, *m.scan);
   a.through += mcl_.average_fast * (judged.through - a.through);
-  rivals_.compare(*model_, *m.scan, judged.fit, news * model_->weight(), random_);
+  a.news += news;
+  if (a.news >= kComparedAfter) {
+    rivals_.compare(*model_, *m.scan, judged.fit, std::min(1.0, a.news) * model_->weight(), random_);
+    a.news = 0;
+  }
   if (m.time_s - a.looked_s < mcl_.recovery_pause_s) return;
   a.looked_s = m.time_s;
+  const double evidence = rivals_.evidence(here);
   const auto count = static_cast<size_t>(mcl_.recovery_share * static_cast<double>(cloud_.size()));
-  if (count > 0 && rivals_.evidence(here) >= mcl_.recovery_gain) recover(count);
-  const bool doubtful = a.fast < mcl_.recovery_below * a.slow || a.explained < kLeastExplained;
-  const size_t looks = candidateCount(mcl_.candidates_per_m2 / 10, 1,
-                                      doubtful ? kMostCandidates : kLooksPerParticle * params_.particles);
+  if (count > 0 && evidence >= mcl_.recovery_gain) recover(count);
+  const size_t looks =
+      candidateCount(mcl_.candidates_per_m2 / 10, 1,
+                     inEarnest(m.time_s, evidence) ? kMostCandidates : kLooksPerParticle * params_.particles);
   rivals_.renew(Candidates::draw(*model_, *m.scan, looks, random_), here);
+}
+
+/// Is it time to look for other places all over the map? Whenever the fit has become worse; and while the map explains
+/// little, ever less often as long as nothing is found, for that may be the map's fault.
+bool Mcl::inEarnest(double time_s, double evidence) {
+  auto& a = memory_;
+  const bool sudden = a.fast < mcl_.recovery_below * a.slow;
+  if (!sudden && a.explained >= kLeastExplained) {
+    a.idle = 0;
+    return false;
+  }
+  if (evidence >= kTold) a.idle = 0;
+  if (!sudden && time_s - a.searched_s < mcl_.recovery_pause_s * std::exp2(a.idle)) return false;
+  a.idle = std::min(a.idle + 1, kMostIdle);
+  a.searched_s = time_s;
+  return true;
 }
 
 void Mcl::recover(size_t count) {
@@ -306,7 +330,8 @@ void Mcl::save(std::vector<double>& out) const {
   ParticleFilter::save(out);
   rivals_.save(out);
   const auto& a = memory_;
-  for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.scans, a.looked_s, a.through})
+  for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.scans, a.looked_s, a.through, a.news,
+                   a.searched_s, a.idle})
     out.push_back(v);
 }
 
@@ -314,7 +339,7 @@ void Mcl::restore(const std::vector<double>& state) {
   estimate_.reset();
   ParticleFilter::restore(state);
   const double* p = state.data() + state.size() - kMemorySize;
-  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8]};
+  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11]};
   rivals_.restore(p);
 }
 

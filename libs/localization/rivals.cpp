@@ -60,7 +60,9 @@ void Rivals::compare(const ScanModel& model, const Scan& scan, double fit, doubl
     model.logLikelihoods(scan, x, y, yaw, kTries, there);
     const auto best = static_cast<size_t>(std::max_element(there, there + kTries) - there);
     r.pose = {x[best], y[best], yaw[best]};
-    r.evidence = std::max(0.0, r.evidence + weight * (model.judge(scan, r.pose).fit - fit));
+    if (!(weight > 0)) continue;
+    const double least = fit - r.evidence / weight;  // below it there is no evidence left
+    r.evidence = std::max(0.0, r.evidence + weight * (model.judge(scan, r.pose, least).fit - fit));
   }
   double most = 0;
   for (const auto& r : rivals_) most = std::max(most, r.evidence);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "localization/fast_math.h"
 
 namespace sidestep {
 namespace {
@@ -35,6 +36,7 @@ ScanModel::ScanModel(const GridMap& map, const ScanModelParams& params) : params
   reach.cap_m = params.model == "beam" ? std::max(5.0, params.field_reach_m) : params.field_reach_m;
   const auto walls = blockedCells(map, obstacles);
   frame_ = map.frame();
+  per_m_ = 1 / frame_.resolution_m;
   if (std::count(walls.begin(), walls.end(), 1) == 0)
     throw ConfigError("the map has no occupied cell: nothing to localize by; lower its occupied threshold");
   for (size_t i = 0; i < known.size(); ++i)
@@ -83,24 +85,17 @@ mrpt::math::TPose2D ScanModel::drawFree(Random& random) const {
 
 /// Cells of the padded raster: the raster's own begin at 1.
 ScanModel::GridPose ScanModel::toGrid(double x, double y, double yaw) const {
-  const double dx = x - frame_.T_map_grid.x, dy = y - frame_.T_map_grid.y, per = 1 / frame_.resolution_m;
-  const double a = yaw - frame_.T_map_grid.phi;
+  const double dx = x - frame_.T_map_grid.x, dy = y - frame_.T_map_grid.y, per = per_m_;
+  double sine, cosine;
+  sineCosine(yaw - frame_.T_map_grid.phi, sine, cosine);
   return {static_cast<float>((cos_ * dx + sin_ * dy) * per + 1), static_cast<float>((-sin_ * dx + cos_ * dy) * per + 1),
-          static_cast<float>(std::cos(a) * per), static_cast<float>(std::sin(a) * per)};
+          static_cast<float>(cosine * per), static_cast<float>(sine * per)};
 }
 
-size_t ScanModel::cellAt(float x, float y) const {
-  const int ix = static_cast<int>(std::min(std::max(x, 0.0f), right_));
-  const int iy = static_cast<int>(std::min(std::max(y, 0.0f), top_));
-  return static_cast<size_t>(iy * stride_ + ix);
-}
-
-/// The ends first, all alike and without branches; then the look-ups, four sums at a time.
-float ScanModel::field(const GridPose& p, const Scan& scan) const {
-  std::array<int32_t, kMostBeams> cell;
+/// Cells of the beams' ends, all alike and without branches. @return how many
+int ScanModel::ends(const GridPose& p, const Scan& scan, int32_t* __restrict at) const {
   const auto n = static_cast<int>(std::min(scan.size(), kMostBeams));
   const float* __restrict bx = scan.x.data(), * __restrict by = scan.y.data();
-  int32_t* __restrict at = cell.data();
   const float px = p.x, py = p.y, c = p.c, s = p.s, right = right_, top = top_;
   const int32_t stride = stride_;
   for (int i = 0; i < n; ++i) {
@@ -111,6 +106,13 @@ float ScanModel::field(const GridPose& p, const Scan& scan) const {
     v = v > top ? top : v;
     at[i] = static_cast<int32_t>(v) * stride + static_cast<int32_t>(u);
   }
+  return n;
+}
+
+/// Look-ups at the ends, four sums at a time.
+float ScanModel::field(const GridPose& p, const Scan& scan) const {
+  std::array<int32_t, kMostBeams> at;
+  const int n = ends(p, scan, at.data());
   const float* table = log_likelihood_.data();
   float sum[4] = {0, 0, 0, 0};
   int i = 0;
@@ -126,7 +128,7 @@ float ScanModel::castRay(float x, float y, float dx, float dy, float reach) cons
   while (t < reach) {
     const float u = x + t * dx, v = y + t * dy;
     if (!(u >= 0 && v >= 0 && u <= right_ && v <= top_)) return reach;
-    const float d = distance_[cellAt(u, v)];
+    const float d = distance_[static_cast<size_t>(static_cast<int>(v) * stride_ + static_cast<int>(u))];
     if (d < 0.5f) return t;
     t += std::max(0.5f, d - 0.75f);  // the cell's centre may be 0.7 cells from here
   }
@@ -134,7 +136,7 @@ float ScanModel::castRay(float x, float y, float dx, float dy, float reach) cons
 }
 
 float ScanModel::beams(const GridPose& p, const Scan& scan) const {
-  const float per = static_cast<float>(1 / frame_.resolution_m), sd = static_cast<float>(params_.sd_m) * per;
+  const float per = static_cast<float>(per_m_), sd = static_cast<float>(params_.sd_m) * per;
   const float reach = scan.max_range * per, norm = 1 / (sd * std::sqrt(2 * static_cast<float>(M_PI)));
   const float hit = static_cast<float>(params_.hit_share), early = static_cast<float>(params_.short_share);
   const float rest = std::max(0.01f, 1 - hit - early), rate = 1 / (static_cast<float>(params_.short_m) * per);
@@ -152,26 +154,32 @@ float ScanModel::beams(const GridPose& p, const Scan& scan) const {
   return sum;
 }
 
-ScanModel::Judgement ScanModel::judge(const Scan& scan, const mrpt::math::TPose2D& pose) const {
+/// A beam that does not end at a wall costs kShort or more, whatever is between: the sum without looking is a bound.
+ScanModel::Judgement ScanModel::judge(const Scan& scan, const mrpt::math::TPose2D& pose, double least) const {
   const GridPose p = toGrid(pose.x, pose.y, pose.phi);
-  const float per = static_cast<float>(1 / frame_.resolution_m), sd = static_cast<float>(params_.sd_m) * per;
-  const float lx = p.x + p.c * scan.laser_x - p.s * scan.laser_y, ly = p.y + p.s * scan.laser_x + p.c * scan.laser_y;
+  const float per = static_cast<float>(per_m_), sd = static_cast<float>(params_.sd_m) * per;
+  std::array<int32_t, kMostBeams> at;
+  std::array<float, kMostBeams> miss;
+  const int n = ends(p, scan, at.data());
   float sum = 0;
-  size_t through = 0;
-  for (size_t i = 0; i < scan.size(); ++i) {
-    const float u = p.x + p.c * scan.x[i] - p.s * scan.y[i], v = p.y + p.s * scan.x[i] + p.c * scan.y[i];
-    const float off = distance_[cellAt(u, v)] / sd, miss = 0.5f * off * off;
-    if (miss < kShort) {
-      sum -= miss;
-      continue;
-    }
-    const float dx = u - lx, dy = v - ly, z = std::sqrt(dx * dx + dy * dy), most = z - kGrazing_m * per;
-    const bool crossed = most > 0 && castRay(lx, ly, dx / z, dy / z, most) < most;
-    through += crossed;
-    sum -= crossed ? std::min(miss, kThrough) : kShort;
+  for (int i = 0; i < n; ++i) {
+    const float off = distance_[static_cast<size_t>(at[i])] / sd;
+    miss[i] = 0.5f * off * off;
+    sum -= std::min(miss[i], kShort);
   }
-  const double n = static_cast<double>(std::max<size_t>(scan.size(), 1));
-  return {static_cast<double>(sum), static_cast<double>(through) / n};
+  if (static_cast<double>(sum) < least) return {static_cast<double>(sum), 0};
+  const float ahead = scan.laser_x, left = scan.laser_y;
+  const float lx = p.x + p.c * ahead - p.s * left, ly = p.y + p.s * ahead + p.c * left;
+  int through = 0;
+  for (int i = 0; i < n; ++i) {
+    if (miss[i] < kShort) continue;
+    const float bx = scan.x[i] - ahead, by = scan.y[i] - left, dx = p.c * bx - p.s * by, dy = p.s * bx + p.c * by;
+    const float z = std::sqrt(dx * dx + dy * dy), most = z - kGrazing_m * per;
+    if (!(most > 0) || castRay(lx, ly, dx / z, dy / z, most) >= most) continue;
+    ++through;
+    sum -= std::min(miss[i], kThrough) - kShort;
+  }
+  return {static_cast<double>(sum), static_cast<double>(through) / std::max(n, 1)};
 }
 
 void ScanModel::logLikelihoods(const Scan& scan, const double* x, const double* y, const double* yaw, size_t n,
@@ -185,11 +193,12 @@ void ScanModel::logLikelihoods(const Scan& scan, const double* x, const double* 
 
 double ScanModel::explained(const Scan& scan, const mrpt::math::TPose2D& pose) const {
   const GridPose p = toGrid(pose.x, pose.y, pose.phi);
-  const auto near = static_cast<float>(1.5 * params_.sd_m / frame_.resolution_m);
-  size_t count = 0;
-  for (size_t i = 0; i < scan.size(); ++i)
-    count += distance_[cellAt(p.x + p.c * scan.x[i] - p.s * scan.y[i], p.y + p.s * scan.x[i] + p.c * scan.y[i])] < near;
-  return scan.size() > 0 ? static_cast<double>(count) / static_cast<double>(scan.size()) : 0;
+  const auto near = static_cast<float>(1.5 * params_.sd_m * per_m_);
+  std::array<int32_t, kMostBeams> at;
+  const int n = ends(p, scan, at.data());
+  int count = 0;
+  for (int i = 0; i < n; ++i) count += distance_[static_cast<size_t>(at[i])] < near;
+  return n > 0 ? static_cast<double>(count) / n : 0;
 }
 
 }  // namespace sidestep

@@ -50,7 +50,9 @@ class ScanModel {
   };
   /// Things that the map does not know shorten many beams at once and say little against a place. Nothing excuses a
   /// beam that is longer than the map allows.
-  Judgement judge(const Scan& scan, const mrpt::math::TPose2D& pose) const;
+  /// @param least  a place that fits worse than this needs no closer look: its fit may then be told too well, but
+  ///               below `least`, and no beam counts as through a wall
+  Judgement judge(const Scan& scan, const mrpt::math::TPose2D& pose, double least = -1e300) const;
   /// What a scan of `beams` beams weighs, as a factor of its log-likelihood.
   double weight() const { return params_.beam_weight; }
   /// A pose drawn evenly from the free cells and all headings.
@@ -62,14 +64,14 @@ class ScanModel {
     float x, y, c, s;  // position in cells, direction, in the grid's frame
   };
   GridPose toGrid(double x, double y, double yaw) const;
+  int ends(const GridPose& p, const Scan& scan, int32_t* at) const;
   float field(const GridPose& p, const Scan& scan) const;
   float beams(const GridPose& p, const Scan& scan) const;
   float castRay(float x, float y, float dx, float dy, float reach) const;
-  size_t cellAt(float x, float y) const;
 
   ScanModelParams params_;
   GridFrame frame_;
-  double cos_ = 1, sin_ = 0;
+  double cos_ = 1, sin_ = 0, per_m_ = 1;  // the raster's direction, cells in a metre
   int stride_ = 0;
   float right_ = 0, top_ = 0;          // largest coordinates, in cells of the padded raster
   std::vector<float> log_likelihood_;  // by cell, with a ring of "nothing near" around the raster
