@@ -12,8 +12,9 @@
 namespace sidestep {
 namespace {
 constexpr size_t kMostBeams = 2000;
-constexpr float kShort = 1, kThrough = 6;  // what a beam costs that ends short of the walls, or behind one
-constexpr float kGrazing_m = 0.5f;         // so much of a beam may run along a wall
+constexpr size_t kExactFloats = size_t{1} << 24;  // integers up to it are floats
+constexpr float kShort = 1, kThrough = 6;         // what a beam costs that ends short of the walls, or behind one
+constexpr float kGrazing_m = 0.5f;                // so much of a beam may run along a wall
 }  // namespace
 
 void ScanModelParams::visit(ParamVisitor& v) {
@@ -84,12 +85,17 @@ mrpt::math::TPose2D ScanModel::drawFree(Random& random) const {
 }
 
 /// Cells of the padded raster: the raster's own begin at 1.
-ScanModel::GridPose ScanModel::toGrid(double x, double y, double yaw) const {
-  const double dx = x - frame_.T_map_grid.x, dy = y - frame_.T_map_grid.y, per = per_m_;
+ScanModel::GridPose ScanModel::toGrid(double x, double y, double sine, double cosine) const {
+  const double dx = x - frame_.T_map_grid.x, dy = y - frame_.T_map_grid.y;
+  return {static_cast<float>((cos_ * dx + sin_ * dy) * per_m_ + 1),
+          static_cast<float>((-sin_ * dx + cos_ * dy) * per_m_ + 1), static_cast<float>(cosine * per_m_),
+          static_cast<float>(sine * per_m_)};
+}
+
+ScanModel::GridPose ScanModel::toGrid(const mrpt::math::TPose2D& pose) const {
   double sine, cosine;
-  sineCosine(yaw - frame_.T_map_grid.phi, sine, cosine);
-  return {static_cast<float>((cos_ * dx + sin_ * dy) * per + 1), static_cast<float>((-sin_ * dx + cos_ * dy) * per + 1),
-          static_cast<float>(cosine * per), static_cast<float>(sine * per)};
+  sineCosine(pose.phi - frame_.T_map_grid.phi, sine, cosine);
+  return toGrid(pose.x, pose.y, sine, cosine);
 }
 
 /// Cells of the beams' ends, all alike and without branches. @return how many
@@ -97,15 +103,22 @@ int ScanModel::ends(const GridPose& p, const Scan& scan, int32_t* __restrict at)
   const auto n = static_cast<int>(std::min(scan.size(), kMostBeams));
   const float* __restrict bx = scan.x.data(), * __restrict by = scan.y.data();
   const float px = p.x, py = p.y, c = p.c, s = p.s, right = right_, top = top_;
+  const auto each = [&](const auto& row) {
+    for (int i = 0; i < n; ++i) {
+      float u = px + c * bx[i] - s * by[i], v = py + s * bx[i] + c * by[i];
+      u = u < 0 ? 0 : u;
+      u = u > right ? right : u;
+      v = v < 0 ? 0 : v;
+      v = v > top ? top : v;
+      at[i] = row(static_cast<int32_t>(v)) + static_cast<int32_t>(u);
+    }
+  };
   const int32_t stride = stride_;
-  for (int i = 0; i < n; ++i) {
-    float u = px + c * bx[i] - s * by[i], v = py + s * bx[i] + c * by[i];
-    u = u < 0 ? 0 : u;
-    u = u > right ? right : u;
-    v = v < 0 ? 0 : v;
-    v = v > top ? top : v;
-    at[i] = static_cast<int32_t>(v) * stride + static_cast<int32_t>(u);
-  }
+  const auto wide = static_cast<float>(stride_);
+  if (log_likelihood_.size() <= kExactFloats)  // any x86-64 multiplies four floats at once, but not four integers
+    each([wide](int32_t v) { return static_cast<int32_t>(static_cast<float>(v) * wide); });
+  else
+    each([stride](int32_t v) { return v * stride; });
   return n;
 }
 
@@ -156,7 +169,7 @@ float ScanModel::beams(const GridPose& p, const Scan& scan) const {
 
 /// A beam that does not end at a wall costs kShort or more, whatever is between: the sum without looking is a bound.
 ScanModel::Judgement ScanModel::judge(const Scan& scan, const mrpt::math::TPose2D& pose, double least) const {
-  const GridPose p = toGrid(pose.x, pose.y, pose.phi);
+  const GridPose p = toGrid(pose);
   const float per = static_cast<float>(per_m_), sd = static_cast<float>(params_.sd_m) * per;
   std::array<int32_t, kMostBeams> at;
   std::array<float, kMostBeams> miss;
@@ -184,15 +197,22 @@ ScanModel::Judgement ScanModel::judge(const Scan& scan, const mrpt::math::TPose2
 
 void ScanModel::logLikelihoods(const Scan& scan, const double* x, const double* y, const double* yaw, size_t n,
                                double* out) const {
+  constexpr size_t kAtOnce = 64;
   const bool follow = params_.model == "beam";
-  for (size_t i = 0; i < n; ++i) {
-    const GridPose p = toGrid(x[i], y[i], yaw[i]);
-    out[i] = static_cast<double>(follow ? beams(p, scan) : field(p, scan));
+  const double turned = frame_.T_map_grid.phi;
+  double sine[kAtOnce], cosine[kAtOnce];
+  for (size_t first = 0; first < n; first += kAtOnce) {
+    const size_t count = std::min(kAtOnce, n - first);
+    for (size_t k = 0; k < count; ++k) sineCosine(yaw[first + k] - turned, sine[k], cosine[k]);
+    for (size_t k = 0; k < count; ++k) {
+      const GridPose p = toGrid(x[first + k], y[first + k], sine[k], cosine[k]);
+      out[first + k] = static_cast<double>(follow ? beams(p, scan) : field(p, scan));
+    }
   }
 }
 
 double ScanModel::explained(const Scan& scan, const mrpt::math::TPose2D& pose) const {
-  const GridPose p = toGrid(pose.x, pose.y, pose.phi);
+  const GridPose p = toGrid(pose);
   const auto near = static_cast<float>(1.5 * params_.sd_m * per_m_);
   std::array<int32_t, kMostBeams> at;
   const int n = ends(p, scan, at.data());

@@ -63,7 +63,8 @@ class ScanModel {
   struct GridPose {
     float x, y, c, s;  // position in cells, direction, in the grid's frame
   };
-  GridPose toGrid(double x, double y, double yaw) const;
+  GridPose toGrid(double x, double y, double sine, double cosine) const;
+  GridPose toGrid(const mrpt::math::TPose2D& pose) const;
   int ends(const GridPose& p, const Scan& scan, int32_t* at) const;
   float field(const GridPose& p, const Scan& scan) const;
   float beams(const GridPose& p, const Scan& scan) const;
