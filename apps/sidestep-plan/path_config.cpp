@@ -124,6 +124,8 @@ void PathConfig::visit(ParamVisitor& v) {
 }
 
 PathConfig effectivePathConfig(const PathOptions& o) {
+  if (o.resolution_m && !o.map.empty() && !isPlainImage(o.map))
+    throw ConfigError("--resolution is for plain images, which " + o.map + " is not");
   PathConfig c;
   if (!o.config_file.empty()) readYaml(o.config_file, [&](ParamVisitor& v) { c.visit(v); });
   if (!o.planner.empty()) c.planner = o.planner;

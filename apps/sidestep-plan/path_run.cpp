@@ -116,10 +116,13 @@ void Run::moveEnds() {
     for (auto* pose : {&pair.start, &pair.goal}) {
       const auto place =
           field_->nearestFree({pose->x, pose->y}, config_.planning.clearance_m, config_.nearest_within_m);
+      const std::string end = pose == &pair.start ? "start" : "goal";
+      if (!place)
+        std::fprintf(stderr, "sidestep-plan: %s not moved: nothing is free within %s m (nearest_within_m)\n",
+                     end.c_str(), shortestNumber(config_.nearest_within_m).c_str());
       if (!place || *place == mrpt::math::TPoint2D(pose->x, pose->y)) continue;
-      moved_.push_back(std::string(pose == &pair.start ? "start" : "goal") + " moved by " +
-                       fixed((*place - mrpt::math::TPoint2D(pose->x, pose->y)).norm(), 2) + " m to (" +
-                       fixed(place->x, 2) + ", " + fixed(place->y, 2) + ")");
+      moved_.push_back(end + " moved by " + fixed((*place - mrpt::math::TPoint2D(pose->x, pose->y)).norm(), 2) +
+                       " m to (" + fixed(place->x, 2) + ", " + fixed(place->y, 2) + ")");
       std::fprintf(stderr, "sidestep-plan: %s\n", moved_.back().c_str());
       pose->x = place->x, pose->y = place->y;
     }

@@ -175,6 +175,8 @@ void MapReadParams::visit(ParamVisitor& v) {
            "side of a cell of the grid made from a simplemap");
 }
 
+bool isPlainImage(const std::string& file) { return endsWith(file, {".pgm", ".png", ".bmp"}); }
+
 GridMap readMap(const std::string& file, const MapReadParams& params) {
   if (endsWith(file, {".yaml", ".yml"})) {
     const auto header = readRosMapHeader(file);
@@ -184,7 +186,7 @@ GridMap readMap(const std::string& file, const MapReadParams& params) {
   }
   if (endsWith(file, {".gridmap", ".gridmap.gz"})) return readGridmap(file);
   if (endsWith(file, {".simplemap", ".simplemap.gz"})) return readSimplemap(file, params.simplemap_resolution_m);
-  if (endsWith(file, {".pgm", ".png", ".bmp"})) return readPlainImage(file, params.image_resolution_m);
+  if (isPlainImage(file)) return readPlainImage(file, params.image_resolution_m);
   throw ConfigError(file +
                     ": is no kind of map that is known; allowed .yaml, .gridmap(.gz), .simplemap(.gz), .pgm, .png, "
                     ".bmp");

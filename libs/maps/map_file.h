@@ -24,6 +24,9 @@ struct MapReadParams {
 /// @throws DatasetError missing or corrupt, ConfigError for an unknown ending or a missing resolution; one line each.
 GridMap readMap(const std::string& file, const MapReadParams& params = {});
 
+/// Whether the name is that of a .pgm, .png or .bmp, which does not say how large its pixels are.
+bool isPlainImage(const std::string& file);
+
 /// Writes NAME.yaml and NAME.pgm, trinary: occupied from 0.65 on, free below 0.196, else unknown.
 /// @param yaml_file  must end in .yaml
 /// @throws DatasetError if it does not reach the disk, ConfigError for another ending.

@@ -106,6 +106,10 @@ TEST_F(PlanPath, NearestMovesTheEndsAndSaysSo) {
   EXPECT_EQ(r.exit_code, 0) << r.err;
   EXPECT_EQ(r.err, "sidestep-plan: goal moved by 0.30 m to (2.75, 1.05)\n");
   EXPECT_EQ(metrics("out")["moved"].size(), 1u);
+  const auto out = run("--start 1,1,0 --goal -100,1,0 --nearest --no-picture -o far");
+  EXPECT_EQ(out.exit_code, 5);
+  EXPECT_TRUE(out.err.starts_with("sidestep-plan: goal not moved: nothing is free within 5 m (nearest_within_m)\n"))
+      << out.err;
 }
 
 TEST_F(PlanPath, AFootprintAsksForTheRoomOfItsFarthestCorner) {
@@ -133,6 +137,8 @@ TEST_F(PlanPath, WhatIsWrongIsOneLineWithItsExitCode) {
   expect("--map room.yaml", 2, "give --start x,y,deg and --goal x,y,deg, or --pairs FILE");
   expect("--map room.pgm --start 1,1 --goal 2,2", 2,
          "room.pgm: a plain image does not say how large a pixel is; give its resolution in metres");
+  expect("--map room.yaml --resolution 0.1 --start 1,1 --goal 2,2", 2,
+         "--resolution is for plain images, which room.yaml is not");
   writeFile(folder_ / "pairs.csv", "start_x,start_y,goal_x,goal_z\n1,1,2,2\n");
   expect("--map room.yaml --pairs pairs.csv", 4, "pairs.csv:1: lacks the column goal_y (is 'goal_x' meant?)");
   writeFile(folder_ / "pairs.csv", "start_x,start_y,goal_x,goal_y\n1,1,2,2\n1,1,2\n");
