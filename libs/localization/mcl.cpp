@@ -44,9 +44,9 @@ void MclParams::visit(ParamVisitor& v) {
            "effective share of the particles that a scan must leave; else it counts for less");
   v.number("candidates_per_m2", candidates_per_m2, {1, 10000}, "1/m^2",
            "poses tried on each free square metre where the robot may be anywhere (ten million at most)");
-  v.number(
-      "noise_scale", noise_scale, {0.01, 100}, "",
-      "sd of odometry's noise by odometry.noise: scans correct often, and too little noise costs more than too much");
+  v.number("travel_noise_scale", travel_noise_scale, {0.01, 100}, "",
+           "sd of the travel by odometry.noise: scans correct often, and too little noise costs more than too much");
+  v.number("turn_noise_scale", turn_noise_scale, {0.01, 100}, "", "sd of the turns likewise");
   v.number("slip_share", slip_share, {0, 1}, "", "share of the particles that look farther around at each scan");
   v.number("slip_m", slip_m, {0, 10}, "m", "as far as this (sd), for wheels that slip");
   v.angle("slip_turn_deg", slip_turn, {0, 90}, "and turned by this");
@@ -95,8 +95,8 @@ void Mcl::start(const PoseBelief& belief) {
 void Mcl::predict(const MotionStep& motion) {
   estimate_.reset();
   MotionStep wider = motion;
-  wider.distance_var *= mcl_.noise_scale * mcl_.noise_scale;
-  wider.turn_var *= mcl_.noise_scale * mcl_.noise_scale;
+  wider.distance_var *= mcl_.travel_noise_scale * mcl_.travel_noise_scale;
+  wider.turn_var *= mcl_.turn_noise_scale * mcl_.turn_noise_scale;
   ParticleFilter::predict(wider);
   if (motion.still || !std::isfinite(motion.distance_m) || !std::isfinite(motion.turn_rad)) return;
   rivals_.move(motion);

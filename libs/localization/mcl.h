@@ -19,7 +19,8 @@ struct MclParams {
   double min_turn = 0.02;  // rad
   double least_ess_share = 0.1;
   double candidates_per_m2 = 300;
-  double noise_scale = 1.5;
+  double travel_noise_scale = 1.5;
+  double turn_noise_scale = 2.25;
   double slip_share = 0.1;
   double slip_m = 0.2;
   double slip_turn = 0.0872664625997164788;                    // rad
