@@ -11,12 +11,11 @@
 
 namespace sidestep {
 namespace {
-constexpr size_t kMemorySize = 12;
-constexpr double kLooksPerParticle = 2;  // candidates for rivals at a time, while nothing is amiss
-constexpr double kComparedAfter = 0.25;  // share of a view that is new when rivals are compared with the estimate
-constexpr double kTold = 3;              // evidence for a rival at which the search goes on undiminished
-constexpr double kMostIdle = 3;          // a search that finds nothing doubles the pause to the next, so many times
-constexpr double kWide_m = 0.5;          // a cloud with a larger sd may be several places
+constexpr size_t kMemorySize = 11;
+constexpr double kLooksPerParticle = 2;       // candidates for rivals at a time, while nothing is amiss
+constexpr double kComparedAfter = 0.25;       // share of a view that is new when rivals are compared with the estimate
+constexpr double kCandidatesPerSecond = 1e5;  // of the log, while places are looked for in earnest for long
+constexpr double kWide_m = 0.5;               // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
 constexpr double kHere_m = 0.5;                     // particles nearer than this stand for the estimate
 constexpr double kNewView_m = 0.5, kNewView = 0.5;  // way [m] or turn [rad] after which a view says all anew
@@ -248,27 +247,22 @@ void Mcl::watch(const Measurement& m, double fit, double news) {
   }
   if (m.time_s - a.looked_s < mcl_.recovery_pause_s) return;
   a.looked_s = m.time_s;
-  const double evidence = rivals_.evidence(here);
   const auto count = static_cast<size_t>(mcl_.recovery_share * static_cast<double>(cloud_.size()));
-  if (count > 0 && evidence >= mcl_.recovery_gain) recover(count);
-  const size_t looks =
-      candidateCount(mcl_.candidates_per_m2 / 10, 1,
-                     inEarnest(m.time_s, evidence) ? kMostCandidates : kLooksPerParticle * params_.particles);
+  if (count > 0 && rivals_.evidence(here) >= mcl_.recovery_gain) recover(count);
+  const size_t thorough = candidateCount(mcl_.candidates_per_m2 / 10, 1, kMostCandidates);
+  const auto light = static_cast<size_t>(kLooksPerParticle * params_.particles);
+  const size_t looks = inEarnest(m.time_s, thorough) ? thorough : std::min(thorough, light);
   rivals_.renew(Candidates::draw(*model_, *m.scan, looks, random_), here);
 }
 
 /// Is it time to look for other places all over the map? Whenever the fit has become worse; and while the map explains
-/// little, ever less often as long as nothing is found, for that may be the map's fault.
-bool Mcl::inEarnest(double time_s, double evidence) {
+/// little, which may be the map's fault and last, less often the larger it is.
+/// @param count  candidates that it would take
+bool Mcl::inEarnest(double time_s, size_t count) {
   auto& a = memory_;
   const bool sudden = a.fast < mcl_.recovery_below * a.slow;
-  if (!sudden && a.explained >= kLeastExplained) {
-    a.idle = 0;
-    return false;
-  }
-  if (evidence >= kTold) a.idle = 0;
-  if (!sudden && time_s - a.searched_s < mcl_.recovery_pause_s * std::exp2(a.idle)) return false;
-  a.idle = std::min(a.idle + 1, kMostIdle);
+  const double pause_s = static_cast<double>(count) / kCandidatesPerSecond;
+  if (!sudden && (a.explained >= kLeastExplained || time_s - a.searched_s < pause_s)) return false;
   a.searched_s = time_s;
   return true;
 }
@@ -331,7 +325,7 @@ void Mcl::save(std::vector<double>& out) const {
   rivals_.save(out);
   const auto& a = memory_;
   for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.scans, a.looked_s, a.through, a.news,
-                   a.searched_s, a.idle})
+                   a.searched_s})
     out.push_back(v);
 }
 
@@ -339,7 +333,7 @@ void Mcl::restore(const std::vector<double>& state) {
   estimate_.reset();
   ParticleFilter::restore(state);
   const double* p = state.data() + state.size() - kMemorySize;
-  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11]};
+  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10]};
   rivals_.restore(p);
 }
 

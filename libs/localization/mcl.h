@@ -75,7 +75,7 @@ class Mcl final : public ParticleFilter {
   size_t candidateCount(double per_m2, size_t least, double most) const;
   void drawFrom(const Candidates& c, size_t first, size_t count);
   void watch(const Measurement& m, double fit, double news);
-  bool inEarnest(double time_s, double evidence);
+  bool inEarnest(double time_s, size_t count);
   ScanModel::Judgement judgeHere(const mrpt::math::TPose2D& here, const Scan& scan) const;
   void recover(size_t count);
   double shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) const;
@@ -86,10 +86,10 @@ class Mcl final : public ParticleFilter {
     double slow = 0, fast = 0;    // averages of the beams' mean likelihood
     double explained = 1;         // average share of beams that the map explains
     double scans = 0;
-    double looked_s = 0;              // when other places were last looked for
-    double through = 0;               // average share of beams that the map forbids
-    double news = 0;                  // what has been new in the views since the rivals were compared
-    double searched_s = 0, idle = 0;  // when all the map was searched, and how often in vain
+    double looked_s = 0;    // when other places were last looked for
+    double through = 0;     // average share of beams that the map forbids
+    double news = 0;        // what has been new in the views since the rivals were compared
+    double searched_s = 0;  // when all the map was searched
   };
   MclParams mcl_;
   std::shared_ptr<const ScanModel> model_;

@@ -137,6 +137,39 @@ TEST(ScanModel, ExcusesBeamsThatEndShortAndNoneThatGoThroughWalls) {
   EXPECT_EQ(late.through, 1);
 }
 
+TEST(ScanModel, JudgesAsUsualWhereAPlaceFitsAsWellAsAskedAndElseSaysThatItDoesNot) {
+  const auto map = support::room();
+  const auto model = modelOf(map);
+  Random random(5);
+  const auto scan = readScan(ScanParams(), support::scanIn(map, {4.2, 2.1, 0.7}, 0.02, random));
+  for (int k = 0; k < 300; ++k) {
+    const auto pose = model->drawFree(random);
+    const auto full = model->judge(*scan, pose), enough = model->judge(*scan, pose, full.fit);
+    EXPECT_EQ(enough.fit, full.fit);
+    EXPECT_EQ(enough.through, full.through);
+    const auto spared = model->judge(*scan, pose, -5);
+    EXPECT_GE(spared.fit, full.fit);
+    if (full.fit >= -5) continue;
+    EXPECT_LT(spared.fit, -5);
+    EXPECT_EQ(spared.through, 0);
+  }
+}
+
+TEST(ScanModel, FindsItsCellsInARasterOfMoreThanSixteenMillion) {
+  GridMap map;
+  map.grid = std::make_shared<mrpt::maps::COccupancyGridMap2D>(0.0f, 4500.0f, 0.0f, 4000.0f, 1.0f);
+  map.grid->fill(0.98f);
+  map.grid->setCell(4001, 3999, 0.02f);
+  const auto model = modelOf(map);
+  Scan scan;
+  scan.x = {1.0f};
+  scan.y = {0.0f};
+  for (const double off : {-2, -1, 1, 2}) {
+    EXPECT_GT(likelihoodAt(*model, scan, {4000.5, 3999.5, 0}), likelihoodAt(*model, scan, {4000.5 + off, 3999.5, 0}));
+    EXPECT_GT(likelihoodAt(*model, scan, {4000.5, 3999.5, 0}), likelihoodAt(*model, scan, {4000.5, 3999.5 + off, 0}));
+  }
+}
+
 TEST(ScanModel, KnowsAMapThatIsTurnedInItsFrame) {
   auto map = support::room();
   const auto straight = modelOf(map);
