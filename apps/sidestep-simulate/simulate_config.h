@@ -14,7 +14,7 @@ namespace sidestep {
 struct SimulateOptions {
   std::string scenario, output = "out";
   std::optional<int> seed;
-  bool overwrite = false, quiet = false, no_picture = false, video = false, write_config = false;
+  bool overwrite = false, quiet = false, no_picture = false, video = false, explain = false, write_config = false;
 };
 
 /// All that a scenario file may hold.
