@@ -9,13 +9,10 @@ namespace sidestep {
 void SimulateConfig::visit(ParamVisitor& v) {
   v.choice("kind", kind, {"localization", "world"}, "what the scenario is about");
   v.integer("seed", seed, {0, 2e9}, "of the random numbers");
-  if (kind == "world") {
+  if (kind == "world")
     world.visit(v);
-    v.section("planners", "parameters of local planners, for all robots",
-              [this](ParamVisitor& s) { planners.visit(s); });
-  } else {
+  else
     localization.visit(v);
-  }
 }
 
 void SimulateConfig::check() const {

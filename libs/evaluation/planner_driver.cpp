@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/planner_driver.h"
 
+#include <algorithm>
+
 namespace sidestep {
 namespace {
 
 class PlannerDriver final : public Driver {
  public:
-  PlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits)
-      : planner_(std::move(planner)), limits_(limits) {}
+  PlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits, PlanWatch watch)
+      : planner_(std::move(planner)), limits_(limits), watch_(std::move(watch)) {}
 
   mrpt::math::TTwist2D drive(const DriverView& view) override {
     PlanInput input;
@@ -21,19 +23,22 @@ class PlannerDriver final : public Driver {
     input.limits = limits_;
     input.period_s = view.period_s;
     planner_->plan(input, out_);
+    if (watch_) watch_(input, out_);
     return out_.command;
   }
 
  private:
   std::unique_ptr<LocalPlanner> planner_;
   RobotLimits limits_;
+  PlanWatch watch_;
   PlanOutput out_;
 };
 
 }  // namespace
 
-std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits) {
-  return std::make_unique<PlannerDriver>(std::move(planner), limits);
+std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
+                                          PlanWatch watch) {
+  return std::make_unique<PlannerDriver>(std::move(planner), limits, std::move(watch));
 }
 
 DriverFactory plannerDrivers(const LocalPlannerParams& params) {
@@ -41,6 +46,11 @@ DriverFactory plannerDrivers(const LocalPlannerParams& params) {
     if (name == "straight" || name == "stand") return makeSimpleDriver(name, limits);
     return makePlannerDriver(makeLocalPlanner(name, params), limits);
   };
+}
+
+bool isLocalPlanner(const std::string& name) {
+  const auto names = localPlannerNames();
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace sidestep

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/robot_start.h"
+
 namespace sidestep {
 namespace {
 
@@ -15,7 +17,7 @@ using mrpt::math::TPoint2D;
 
 constexpr double kWallsMatter_m = 5;  // clearance to walls beyond counts as infinite
 
-enum Stream : uint64_t { kEncoders = 1, kImu, kGps, kLaser, kCrowd, kFirstRobot = 100 };
+enum Stream : uint64_t { kEncoders = 1, kImu, kGps, kLaser, kCrowd, kTracks, kFirstRobot = 100 };
 enum RobotStream : uint64_t { kStart, kWheels, kPerception, kStreamsPerRobot };
 
 std::vector<Segment> allWalls(const WorldParams& p, const WorldInputs& inputs) {
@@ -39,16 +41,20 @@ Random robotRandom(uint64_t seed, size_t robot, RobotStream what) {
   return Random(seed, kFirstRobot + kStreamsPerRobot * robot + what);
 }
 
-mrpt::math::TPose2D startOf(const RobotParams& p, Random random) {
-  const double dx = p.start_shift_m * random.uniform(-1, 1), dy = p.start_shift_m * random.uniform(-1, 1);
-  return {p.x_m + dx, p.y_m + dy, p.yaw};
+/// Recorded people, as of a time at random.
+std::vector<RecordedTrack> shifted(std::vector<RecordedTrack> tracks, double most_s, Random random) {
+  if (!(most_s > 0)) return tracks;
+  const double by = random.uniform(0, most_s);
+  for (auto& track : tracks)
+    for (auto& p : track.points) p.time_s -= by;
+  return tracks;
 }
 
 /// A robot with its wheels, its eyes and whoever drives it.
 struct Robot {
-  Robot(const RobotParams& p, uint64_t seed, size_t index)
+  Robot(const RobotParams& p, const mrpt::math::TPose2D& start, uint64_t seed, size_t index)
       : params(p),
-        drive(p.drive, p.limits, startOf(p, robotRandom(seed, index, kStart)), robotRandom(seed, index, kWheels)),
+        drive(p.drive, p.limits, start, robotRandom(seed, index, kWheels)),
         perception(p.perception, robotRandom(seed, index, kPerception)),
         meter(static_cast<int>(index)) {
     drive.startAt(p.start_speed);
@@ -102,7 +108,8 @@ struct World::Impl {
 World::Impl::Impl(const WorldParams& p, uint64_t seed, WorldInputs inputs, const DriverFactory& factory)
     : params((p.check(), p)),
       walls(allWalls(p, inputs)),
-      crowd(groupsOf(p), inputs.tracks, p.social_force, Random(seed, kCrowd)),
+      crowd(groupsOf(p), shifted(std::move(inputs.tracks), p.tracks_shift_s, Random(seed, kTracks)), p.social_force,
+            Random(seed, kCrowd)),
       encoders(params.encoders, Random(seed, kEncoders)),
       imu(params.imu, Random(seed, kImu)),
       gps(params.gps, Random(seed, kGps)),
@@ -112,10 +119,11 @@ World::Impl::Impl(const WorldParams& p, uint64_t seed, WorldInputs inputs, const
       steps_a_period(std::llround(p.control_period_s / p.step_s)) {
   for (size_t i = 0; i < params.robot_names.size(); ++i) {
     const RobotParams& robot = params.robots.at(params.robot_names[i]);
-    robots.emplace_back(robot, seed, i);
+    const RobotStart start = drawStart(robot, robotRandom(seed, i, kStart), crowd.people(), walls);
+    robots.emplace_back(robot, start.pose, seed, i);
     robots.back().driver = factory(robot.planner, robot.limits);
     states.emplace_back();
-    states.back().goal = {robot.goal_x_m, robot.goal_y_m, 0};
+    states.back().goal = {start.goal.x, start.goal.y, 0};
     states.back().radius_m = robot.limits.radius_m;
   }
   bodies.resize(robots.size());
