@@ -11,7 +11,7 @@ void SimulateConfig::visit(ParamVisitor& v) {
   v.integer("seed", seed, {0, 2e9}, "of the random numbers");
   if (kind == "world") {
     world.visit(v);
-    v.section("planners", "parameters of local planners, for all robots",
+    v.section("planners", "local planners and what they are told, for all robots",
               [this](ParamVisitor& s) { planners.visit(s); });
   } else {
     localization.visit(v);
@@ -30,6 +30,13 @@ SimulateConfig effectiveConfig(const SimulateOptions& o) {
   if (!o.scenario.empty()) readYaml(o.scenario, [&](ParamVisitor& v) { c.visit(v); });
   if (o.seed && *o.seed < 0) throw ConfigError("--seed " + std::to_string(*o.seed) + ": must not be negative");
   if (o.seed) c.seed = *o.seed;
+  if (!o.planners.empty() || !o.snapshots_s.empty()) {
+    if (c.kind != "world") throw ConfigError("--planner, --snapshots: only of scenarios of kind: world");
+    if (o.planners.size() > 1 && o.snapshots_s.empty())
+      throw ConfigError("--planner: more than one only with --snapshots");
+    if (!o.planners.empty() && !c.world.robot_names.empty())
+      c.world.robots.at(c.world.robot_names[0]).planner = o.planners[0];
+  }
   return c;
 }
 

@@ -3,9 +3,10 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/params.h"
-#include "planning/planners.h"
+#include "evaluation/planner_driver.h"
 #include "simulation/localization_scenario.h"
 #include "simulation/world_params.h"
 
@@ -15,6 +16,8 @@ namespace sidestep {
 struct SimulateOptions {
   std::string scenario, output = "out";
   std::optional<int> seed;
+  std::vector<std::string> planners;  ///< of the first robot, instead of the scenario's; more than one: for snapshots
+  std::vector<double> snapshots_s;
   bool overwrite = false, quiet = false, no_picture = false, video = false, write_config = false;
 };
 
@@ -24,7 +27,7 @@ struct SimulateConfig {
   int seed = 1;
   LocalizationScenarioParams localization;
   WorldParams world;
-  LocalPlannerParams planners;
+  DriverParams planners;
 
   /// Shows what belongs to `kind`.
   void visit(ParamVisitor& v);

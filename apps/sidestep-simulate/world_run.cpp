@@ -4,6 +4,7 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "datasets/log_writer.h"
 #include "datasets/track_file.h"
+#include "evaluation/plan_snapshots.h"
 #include "evaluation/planner_driver.h"
 #include "evaluation/world_figure.h"
 #include "maps/map_file.h"
@@ -89,6 +91,7 @@ std::string metricsText(const SimulateConfig& config, const World& world, const 
                   {"seed", config.seed},
                   {"success", s.success},
                   {"arrived", s.arrived},
+                  {"goals_reached", s.goals_reached},
                   {"time_s", s.time_s},
                   {"path_m", s.path_m},
                   {"average_velocity", s.average_velocity},
@@ -108,11 +111,28 @@ void film(const WorldFigure& figure, const OutputFolder& folder) {
   std::filesystem::remove_all(frames);
 }
 
+/// A column for each planner of the command line, or one for the scenario's.
+void drawSnapshotsOf(const SimulateOptions& options, const SimulateConfig& config, const WorldInputs& inputs,
+                     const World& world, const OutputFolder& folder) {
+  WorldParams params = config.world;
+  RobotParams& robot = params.robots.at(params.robot_names[0]);
+  const auto planners = options.planners.empty() ? std::vector<std::string>{robot.planner} : options.planners;
+  std::vector<double> times = options.snapshots_s;
+  std::sort(times.begin(), times.end());
+  std::vector<SnapshotColumn> columns;
+  for (const auto& planner : planners) {
+    robot.planner = planner;
+    columns.push_back(
+        {planner, takeSnapshots(params, static_cast<uint64_t>(config.seed), inputs, config.planners, times)});
+  }
+  drawSnapshots(columns, world.walls().walls(), folder.file("snapshots.png"));
+}
+
 }  // namespace
 
 ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder) {
-  World world(config.world, static_cast<uint64_t>(config.seed), inputsOf(options, config.world),
-              plannerDrivers(config.planners));
+  const WorldInputs inputs = inputsOf(options, config.world);
+  World world(config.world, static_cast<uint64_t>(config.seed), inputs, plannerDrivers(config.planners));
   LogWriter log(folder.file("run.rawlog"), commandLine());
   WorldReporter reporter(world);
   Paths paths(world);
@@ -138,6 +158,7 @@ ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, 
   paths.figure().title = options.scenario.substr(options.scenario.find_last_of('/') + 1);
   if (!options.no_picture) drawWorld(paths.figure(), folder.file("trajectory.png"));
   if (options.video) film(paths.figure(), folder);
+  if (!options.snapshots_s.empty() && !interrupted()) drawSnapshotsOf(options, config, inputs, world, folder);
   const WorldSummary s = summarize(world);
   std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", folder.file("run.rawlog").c_str(),
               s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m, world.contacts(0).contacts().size());

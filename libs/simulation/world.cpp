@@ -39,6 +39,13 @@ Random robotRandom(uint64_t seed, size_t robot, RobotStream what) {
   return Random(seed, kFirstRobot + kStreamsPerRobot * robot + what);
 }
 
+std::vector<mrpt::math::TPose2D> goalsOf(const RobotParams& p) {
+  std::vector<mrpt::math::TPose2D> out;
+  for (const auto& row : p.goals) out.emplace_back(row[0], row[1], 0);
+  if (out.empty()) out.emplace_back(p.goal_x_m, p.goal_y_m, 0);
+  return out;
+}
+
 mrpt::math::TPose2D startOf(const RobotParams& p, Random random) {
   const double dx = p.start_shift_m * random.uniform(-1, 1), dy = p.start_shift_m * random.uniform(-1, 1);
   return {p.x_m + dx, p.y_m + dy, p.yaw};
@@ -48,12 +55,14 @@ mrpt::math::TPose2D startOf(const RobotParams& p, Random random) {
 struct Robot {
   Robot(const RobotParams& p, uint64_t seed, size_t index)
       : params(p),
+        goals(goalsOf(p)),
         drive(p.drive, p.limits, startOf(p, robotRandom(seed, index, kStart)), robotRandom(seed, index, kWheels)),
         perception(p.perception, robotRandom(seed, index, kPerception)),
         meter(static_cast<int>(index)) {
     drive.startAt(p.start_speed);
   }
   RobotParams params;
+  std::vector<mrpt::math::TPose2D> goals;  ///< in order, one at least
   DiffDrive drive;
   Perception perception;
   ContactMeter meter;
@@ -115,7 +124,7 @@ World::Impl::Impl(const WorldParams& p, uint64_t seed, WorldInputs inputs, const
     robots.emplace_back(robot, seed, i);
     robots.back().driver = factory(robot.planner, robot.limits);
     states.emplace_back();
-    states.back().goal = {robot.goal_x_m, robot.goal_y_m, 0};
+    states.back().goal = robots.back().goals.front();
     states.back().radius_m = robot.limits.radius_m;
   }
   bodies.resize(robots.size());
@@ -132,6 +141,11 @@ void World::Impl::publish() {
     bodies[i] = {{s.pose.x, s.pose.y}, {s.twist.vx * c, s.twist.vx * n}, s.radius_m};
     const double to_goal = std::hypot(s.goal.x - s.pose.x, s.goal.y - s.pose.y);
     if (s.arrived || to_goal > robots[i].params.goal_tolerance_m) continue;
+    const auto& goals = robots[i].goals;
+    if (const auto next = static_cast<size_t>(++s.goals_reached); next < goals.size()) {
+      s.goal = goals[next];
+      continue;
+    }
     s.arrived = true;
     s.arrived_s = time_s;
   }
@@ -314,6 +328,7 @@ WorldSummary summarize(const World& world) {
   const ContactMeter& meter = world.contacts(0);
   WorldSummary out;
   out.arrived = robot.arrived;
+  out.goals_reached = robot.goals_reached;
   out.time_s = robot.arrived_s.value_or(world.time());
   out.path_m = robot.path_m;
   out.average_velocity = out.time_s > 0 ? out.path_m / out.time_s : 0;
