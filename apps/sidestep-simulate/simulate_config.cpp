@@ -9,13 +9,10 @@ namespace sidestep {
 void SimulateConfig::visit(ParamVisitor& v) {
   v.choice("kind", kind, {"localization", "world"}, "what the scenario is about");
   v.integer("seed", seed, {0, 2e9}, "of the random numbers");
-  if (kind == "world") {
+  if (kind == "world")
     world.visit(v);
-    v.section("planners", "local planners and what they are told, for all robots",
-              [this](ParamVisitor& s) { planners.visit(s); });
-  } else {
+  else
     localization.visit(v);
-  }
 }
 
 void SimulateConfig::check() const {
@@ -34,8 +31,9 @@ SimulateConfig effectiveConfig(const SimulateOptions& o) {
     if (c.kind != "world") throw ConfigError("--planner, --snapshots: only of scenarios of kind: world");
     if (o.planners.size() > 1 && o.snapshots_s.empty())
       throw ConfigError("--planner: more than one only with --snapshots");
-    if (!o.planners.empty() && !c.world.robot_names.empty())
-      c.world.robots.at(c.world.robot_names[0]).planner = o.planners[0];
+    WorldParams& world = c.world.world;
+    if (!o.planners.empty() && !world.robot_names.empty())
+      world.robots.at(world.robot_names[0]).planner = o.planners[0];
   }
   return c;
 }

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "core/params.h"
-#include "evaluation/planner_driver.h"
+#include "evaluation/world_scenario.h"
 #include "simulation/localization_scenario.h"
-#include "simulation/world_params.h"
 
 namespace sidestep {
 
@@ -26,8 +25,7 @@ struct SimulateConfig {
   std::string kind = "localization";
   int seed = 1;
   LocalizationScenarioParams localization;
-  WorldParams world;
-  DriverParams planners;
+  WorldScenario world;
 
   /// Shows what belongs to `kind`.
   void visit(ParamVisitor& v);

@@ -7,9 +7,6 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/poses/CPose2D.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 #include "core/errors.h"
 #include "datasets/log_reader.h"
 
@@ -145,25 +142,6 @@ DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& c
   out.fixes = localizer.takeFixes();
   out.gave_fixes = config.uses("gps") && !out.fixes.empty();
   return out;
-}
-
-std::string resolvedPath(const std::string& path, const std::string& study_file) {
-  std::string out = path;
-  for (size_t from = out.find("${"); from != std::string::npos; from = out.find("${", from)) {
-    const size_t to = out.find('}', from);
-    if (to == std::string::npos) throw ConfigError(study_file + ": " + path + ": ${ without }");
-    const std::string name = out.substr(from + 2, to - from - 2);
-    const char* value = std::getenv(name.c_str());
-    if (value == nullptr || *value == '\0')
-      throw DatasetError::missing(
-          study_file + ": " + path + ": the environment variable " + name +
-          " is not set; set it to the folder of the data, or leave these scenarios out with --scenarios");
-    out.replace(from, to + 1 - from, value);
-  }
-  const std::filesystem::path file(out);
-  return (file.is_absolute() ? file : std::filesystem::path(study_file).parent_path() / file)
-      .lexically_normal()
-      .string();
 }
 
 }  // namespace sidestep

@@ -49,8 +49,4 @@ RecordedDrive readDrive(const std::string& log, const std::string& truth_file, c
 DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& config, const SignalLoss& loss,
                              uint64_t filter_seed);
 
-/// `path` with ${NAME} replaced by the environment's, and started at the folder of `study_file` where it is relative.
-/// @throws DatasetError if the environment does not say.
-std::string resolvedPath(const std::string& path, const std::string& study_file);
-
 }  // namespace sidestep

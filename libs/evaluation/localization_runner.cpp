@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/localization_runner.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "core/errors.h"
+#include "evaluation/data_path.h"
 #include "evaluation/drive.h"
 #include "evaluation/drive_metrics.h"
+#include "evaluation/overlay_yaml.h"
 #include "evaluation/study.h"
 #include "evaluation/trajectory_figure.h"
 
@@ -45,22 +46,6 @@ struct ScenarioEntry {
     return simulated ? simulated->params().trajectory.duration_s : recorded ? recorded->duration_s : 0;
   }
 };
-
-bool isBlank(const std::string& yaml) { return yaml.find_first_not_of(" \n") == std::string::npos; }
-
-/// All of `fields` as YAML without its comments.
-std::string plainYaml(const Visit& fields) {
-  std::string out, all = writeYaml(fields);
-  for (size_t at = 0; at < all.size();) {
-    const size_t end = std::min(all.find('\n', at), all.size());
-    std::string line = all.substr(at, end - at);
-    if (const auto note = line.find("  # "); note != std::string::npos) line.resize(note);
-    if (line.find_first_not_of(' ') != std::string::npos && line[line.find_first_not_of(' ')] != '#')
-      out += line + "\n";
-    at = end + 1;
-  }
-  return out;
-}
 
 class LocalizationRunner final : public StudyRunner {
  public:

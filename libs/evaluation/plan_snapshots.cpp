@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "evaluation/gnuplot.h"
+#include "evaluation/planner_driver.h"
 
 namespace sidestep {
 namespace {
@@ -104,18 +105,21 @@ std::string panel(const std::string& title, const PlanSnapshot& s, const std::st
 
 }  // namespace
 
-std::vector<PlanSnapshot> takeSnapshots(const WorldParams& params, uint64_t seed, const WorldInputs& inputs,
-                                        const DriverParams& drivers, const std::vector<double>& times_s) {
+std::vector<PlanSnapshot> takeSnapshots(const WorldScenario& scenario, uint64_t seed, const WorldInputs& inputs,
+                                        const std::vector<double>& times_s) {
   std::vector<PlanSnapshot> out;
-  World world(params, seed, inputs, plannerDrivers(drivers));
-  const RobotParams& robot = params.robots.at(params.robot_names[0]);
+  const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
+  if (!isLocalPlanner(robot.planner)) return out;
+  World world(scenario.world, seed, inputs, plannerDrivers(scenario.planners));
   std::vector<TPoint2D> driven;
   const auto watch = [&](const PlanInput& in, const PlanOutput& plan) {
     driven.emplace_back(in.pose.x, in.pose.y);
     while (out.size() < times_s.size() && in.time_s + 1e-9 >= times_s[out.size()])
       out.push_back(snapshotOf(world, in, plan, driven));
   };
-  world.setDriver(0, makeDriver(robot.planner, robot.limits, drivers, watch));
+  auto planner = makeLocalPlanner(robot.planner, scenario.planners.planners);
+  planner->explain(true);
+  world.setDriver(0, makePlannerDriver(std::move(planner), robot.limits, scenario.planners, watch));
   world.run([&] { return out.size() < times_s.size(); });
   return out;
 }

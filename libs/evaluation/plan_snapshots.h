@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/planner_driver.h"
-#include "simulation/world.h"
+#include "evaluation/world_scenario.h"
 
 namespace sidestep {
 
@@ -34,8 +33,9 @@ struct SnapshotColumn {
 /// Runs a world until the last of `times_s`, or to its end, and looks at the first plan from each of them on. The plans
 /// are those of a run that is not looked at.
 /// @param times_s  not decreasing
-std::vector<PlanSnapshot> takeSnapshots(const WorldParams& world, uint64_t seed, const WorldInputs& inputs,
-                                        const DriverParams& drivers, const std::vector<double>& times_s);
+/// @return none if the first robot is not driven by a local planner
+std::vector<PlanSnapshot> takeSnapshots(const WorldScenario& scenario, uint64_t seed, const WorldInputs& inputs,
+                                        const std::vector<double>& times_s);
 
 /// Draws them: a column a planner, a row a time, as figures 4.13 and 4.18 of the dissertation. Candidates thin and
 /// green, the chosen one thick and red, people with an arrow of one second of their velocity.

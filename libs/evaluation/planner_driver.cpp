@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/planner_driver.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sidestep {
@@ -10,15 +11,13 @@ namespace {
 class PlannerDriver final : public Driver {
  public:
   PlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits, const DriverParams& params,
-                const PlanWatch& watch)
+                PlanWatch watch)
       : planner_(std::move(planner)),
         limits_(limits),
         tracking_(params.tracking),
         predictor_(params.tracking.prediction),
         route_(params.route, limits.radius_m),
-        watch_(watch) {
-    planner_->explain(static_cast<bool>(watch_));
-  }
+        watch_(std::move(watch)) {}
 
   mrpt::math::TTwist2D drive(const DriverView& view) override {
     PlanInput input;
@@ -51,7 +50,7 @@ class PlannerDriver final : public Driver {
   RobotLimits limits_;
   TrackingParams tracking_;
   MotionPredictor predictor_;
-  Route route_;
+  GlobalRoute route_;
   PlanWatch watch_;
   std::vector<MovingObstacle> tracked_;
   PlanOutput out_;
@@ -74,18 +73,20 @@ void DriverParams::visit(ParamVisitor& v) {
 }
 
 std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
-                                          const DriverParams& params, const PlanWatch& watch) {
-  return std::make_unique<PlannerDriver>(std::move(planner), limits, params, watch);
-}
-
-std::unique_ptr<Driver> makeDriver(const std::string& name, const RobotLimits& limits, const DriverParams& params,
-                                   const PlanWatch& watch) {
-  if (name == "straight" || name == "stand") return makeSimpleDriver(name, limits);
-  return makePlannerDriver(makeLocalPlanner(name, params.planners), limits, params, watch);
+                                          const DriverParams& params, PlanWatch watch) {
+  return std::make_unique<PlannerDriver>(std::move(planner), limits, params, std::move(watch));
 }
 
 DriverFactory plannerDrivers(const DriverParams& params) {
-  return [params](const std::string& name, const RobotLimits& limits) { return makeDriver(name, limits, params); };
+  return [params](const std::string& name, const RobotLimits& limits) -> std::unique_ptr<Driver> {
+    if (name == "straight" || name == "stand") return makeSimpleDriver(name, limits);
+    return makePlannerDriver(makeLocalPlanner(name, params.planners), limits, params);
+  };
+}
+
+bool isLocalPlanner(const std::string& name) {
+  const auto names = localPlannerNames();
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace sidestep

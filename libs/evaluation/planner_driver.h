@@ -3,8 +3,9 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <string>
 
-#include "evaluation/route.h"
+#include "evaluation/global_route.h"
 #include "perception/motion_predictor.h"
 #include "planning/planners.h"
 #include "simulation/driver.h"
@@ -24,7 +25,7 @@ struct TrackingParams {
 struct DriverParams {
   LocalPlannerParams planners;
   TrackingParams tracking;
-  RouteParams route;
+  GlobalRouteParams route;
 
   DriverParams() = default;
   // planners alone are all that most worlds say, hence not explicit
@@ -32,19 +33,19 @@ struct DriverParams {
   void visit(ParamVisitor& v);
 };
 
-/// Told of each plan; the candidates are there.
+/// Is told what a planner was asked and what it answered, once a control period.
 using PlanWatch = std::function<void(const PlanInput&, const PlanOutput&)>;
 
 /// A local planner at the wheel of a simulated robot: goes for the goal with what is perceived, and knows nothing else.
-/// @param watch  told of each plan; may be empty
 std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
-                                          const DriverParams& params = {}, const PlanWatch& watch = {});
-/// The same by name, or what `makeSimpleDriver` makes, which is not watched.
-/// @throws ConfigError for a name that is neither, with all names
-std::unique_ptr<Driver> makeDriver(const std::string& name, const RobotLimits& limits, const DriverParams& params,
-                                   const PlanWatch& watch = {});
+                                          const DriverParams& params = {}, PlanWatch watch = {});
 
-/// `makeDriver` for the robots of a world. The factory may outlive `params`.
+/// Makes the drivers of a world's robots: local planners by name, and what `makeSimpleDriver` makes. The factory may
+/// outlive `params`.
+/// @throws ConfigError when called with a name that is neither, with all names
 DriverFactory plannerDrivers(const DriverParams& params);
+
+/// Whether a driver of that name is a local planner, with plans that can be watched.
+bool isLocalPlanner(const std::string& name);
 
 }  // namespace sidestep

@@ -3,7 +3,6 @@
 #include "evaluation/study_figures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -13,12 +12,6 @@
 
 namespace sidestep {
 namespace {
-
-/// Colours of Okabe and Ito, told apart with any colour vision.
-const std::array<const char*, 12> kColours = {"#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9",
-                                              "#f0e442", "#404040", "#882255", "#332288", "#999933", "#bbbbbb"};
-
-const char* colour(size_t i) { return kColours[i % kColours.size()]; }
 
 using Lines = std::vector<const SummaryLine*>;
 
@@ -99,7 +92,7 @@ void drawBars(const Study& study, const std::string& metric, const Lines& lines,
     if (data.empty()) continue;
     const std::string block = "$a" + std::to_string(a);
     blocks += block + " << EOD\n" + data + "EOD\n";
-    plots += block + " using 1:2:5 with boxes fs solid 0.85 noborder lc rgb '" + colour(a) + "' title " +
+    plots += block + " using 1:2:5 with boxes fs solid 0.85 noborder lc rgb '" + figureColour(a) + "' title " +
              gnuplotQuoted(algorithms[a]) + ", " + block +
              " using 1:3:(0):($4-$3) with vectors heads size screen 0.004,90 lw 1.2 lc rgb '#202020' notitle, ";
   }
@@ -151,9 +144,9 @@ void drawCurves(const Study& study, const std::string& metric, const std::string
     const std::string block = "$c" + std::to_string(number);
     const std::string title = study.algorithms()[key.second] + (entries.size() > 1 ? ", " + entries[key.first] : "");
     blocks += block + " << EOD\n" + text + "EOD\n";
-    bands += block + " using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '" + colour(number) +
-             "' notitle, ";
-    curves += block + " using 1:2 with linespoints lw 2 pt 7 ps 0.7 lc rgb '" + colour(number) + "' title " +
+    bands += block + " using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '" +
+             figureColour(number) + "' notitle, ";
+    curves += block + " using 1:2 with linespoints lw 2 pt 7 ps 0.7 lc rgb '" + figureColour(number) + "' title " +
               gnuplotQuoted(title) + ", ";
     ++number;
   }
@@ -194,22 +187,35 @@ void drawMetric(const Study& study, const std::string& metric, const std::vector
            [&, &g = group, &m = members](const auto& png) { drawCurves(study, metric, g, m, png); });
 }
 
+/// The first run of each row with each algorithm of `pictures`, and all of them over time.
+void drawRuns(const Study& study, const std::string& folder, std::vector<StudyFigure>& out) {
+  const auto& all = study.algorithms();
+  const auto path = [&](const std::string& file) { return (std::filesystem::path(folder) / file).string(); };
+  for (const auto& name : study.pictures) {
+    const auto algorithm = static_cast<size_t>(std::find(all.begin(), all.end(), name) - all.begin());
+    for (size_t row = 0; row < study.rows().size(); ++row) {
+      const std::string title = study.rows()[row].name + ", " + name + ", run 0";
+      const std::string file = fileName("run-" + study.rows()[row].name + "-" + name);
+      if (study.runner().draw(study.place(row, algorithm, 0), title, path(file))) out.push_back({file, title});
+    }
+  }
+  for (size_t row = 0; row < study.rows().size(); ++row) {
+    std::vector<StudyPlace> places;
+    for (const auto& name : study.pictures)
+      places.push_back(study.place(row, static_cast<size_t>(std::find(all.begin(), all.end(), name) - all.begin()), 0));
+    const std::string title = study.rows()[row].name + ", run 0", file = fileName("time-" + study.rows()[row].name);
+    if (!places.empty() && study.runner().drawTogether(places, study.pictures, title, path(file)))
+      out.push_back({file, title + ", over time"});
+  }
+}
+
 }  // namespace
 
 std::vector<StudyFigure> drawStudy(const Study& study, const std::vector<SummaryLine>& lines,
                                    const std::string& folder) {
   std::vector<StudyFigure> out;
   for (const auto& metric : study.figures) drawMetric(study, metric, lines, folder, out);
-  for (const auto& name : study.pictures) {
-    const auto& all = study.algorithms();
-    const auto algorithm = static_cast<size_t>(std::find(all.begin(), all.end(), name) - all.begin());
-    for (size_t row = 0; row < study.rows().size(); ++row) {
-      const std::string title = study.rows()[row].name + ", " + name + ", run 0";
-      const std::string file = fileName("run-" + study.rows()[row].name + "-" + name);
-      if (study.runner().draw(study.place(row, algorithm, 0), title, (std::filesystem::path(folder) / file).string()))
-        out.push_back({file, title});
-    }
-  }
+  drawRuns(study, folder, out);
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "evaluation/localization_runner.h"
+#include "evaluation/world_runner.h"
 
 namespace sidestep {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 using Maker = std::function<std::unique_ptr<StudyRunner>(const std::string&)>;
 
 const std::map<std::string, Maker>& makers() {
-  static const std::map<std::string, Maker> table = {{"localization", makeLocalizationRunner}};
+  static const std::map<std::string, Maker> table = {{"localization", makeLocalizationRunner},
+                                                     {"world", makeWorldRunner}};
   return table;
 }
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/robot_start.h"
+
 namespace sidestep {
 namespace {
 
@@ -15,7 +17,7 @@ using mrpt::math::TPoint2D;
 
 constexpr double kWallsMatter_m = 5;  // clearance to walls beyond counts as infinite
 
-enum Stream : uint64_t { kEncoders = 1, kImu, kGps, kLaser, kCrowd, kFirstRobot = 100 };
+enum Stream : uint64_t { kEncoders = 1, kImu, kGps, kLaser, kCrowd, kTracks, kFirstRobot = 100 };
 enum RobotStream : uint64_t { kStart, kWheels, kPerception, kStreamsPerRobot };
 
 std::vector<Segment> allWalls(const WorldParams& p, const WorldInputs& inputs) {
@@ -39,24 +41,28 @@ Random robotRandom(uint64_t seed, size_t robot, RobotStream what) {
   return Random(seed, kFirstRobot + kStreamsPerRobot * robot + what);
 }
 
-std::vector<mrpt::math::TPose2D> goalsOf(const RobotParams& p) {
-  std::vector<mrpt::math::TPose2D> out;
-  for (const auto& row : p.goals) out.emplace_back(row[0], row[1], 0);
-  if (out.empty()) out.emplace_back(p.goal_x_m, p.goal_y_m, 0);
-  return out;
+/// Recorded people, as of a time at random.
+std::vector<RecordedTrack> shifted(std::vector<RecordedTrack> tracks, double most_s, Random random) {
+  if (!(most_s > 0)) return tracks;
+  const double by = random.uniform(0, most_s);
+  for (auto& track : tracks)
+    for (auto& p : track.points) p.time_s -= by;
+  return tracks;
 }
 
-mrpt::math::TPose2D startOf(const RobotParams& p, Random random) {
-  const double dx = p.start_shift_m * random.uniform(-1, 1), dy = p.start_shift_m * random.uniform(-1, 1);
-  return {p.x_m + dx, p.y_m + dy, p.yaw};
+std::vector<mrpt::math::TPose2D> goalsOf(const RobotParams& p, const TPoint2D& goal) {
+  std::vector<mrpt::math::TPose2D> out;
+  for (const auto& row : p.goals) out.emplace_back(row[0], row[1], 0);
+  if (out.empty()) out.emplace_back(goal.x, goal.y, 0);
+  return out;
 }
 
 /// A robot with its wheels, its eyes and whoever drives it.
 struct Robot {
-  Robot(const RobotParams& p, uint64_t seed, size_t index)
+  Robot(const RobotParams& p, const RobotStart& start, uint64_t seed, size_t index)
       : params(p),
-        goals(goalsOf(p)),
-        drive(p.drive, p.limits, startOf(p, robotRandom(seed, index, kStart)), robotRandom(seed, index, kWheels)),
+        goals(goalsOf(p, start.goal)),
+        drive(p.drive, p.limits, start.pose, robotRandom(seed, index, kWheels)),
         perception(p.perception, robotRandom(seed, index, kPerception)),
         meter(static_cast<int>(index)) {
     drive.startAt(p.start_speed);
@@ -111,7 +117,8 @@ struct World::Impl {
 World::Impl::Impl(const WorldParams& p, uint64_t seed, WorldInputs inputs, const DriverFactory& factory)
     : params((p.check(), p)),
       walls(allWalls(p, inputs)),
-      crowd(groupsOf(p), inputs.tracks, p.social_force, Random(seed, kCrowd)),
+      crowd(groupsOf(p), shifted(std::move(inputs.tracks), p.tracks_shift_s, Random(seed, kTracks)), p.social_force,
+            Random(seed, kCrowd)),
       encoders(params.encoders, Random(seed, kEncoders)),
       imu(params.imu, Random(seed, kImu)),
       gps(params.gps, Random(seed, kGps)),
@@ -121,7 +128,8 @@ World::Impl::Impl(const WorldParams& p, uint64_t seed, WorldInputs inputs, const
       steps_a_period(std::llround(p.control_period_s / p.step_s)) {
   for (size_t i = 0; i < params.robot_names.size(); ++i) {
     const RobotParams& robot = params.robots.at(params.robot_names[i]);
-    robots.emplace_back(robot, seed, i);
+    const RobotStart start = drawStart(robot, robotRandom(seed, i, kStart), crowd.people(), walls);
+    robots.emplace_back(robot, start, seed, i);
     robots.back().driver = factory(robot.planner, robot.limits);
     states.emplace_back();
     states.back().goal = robots.back().goals.front();

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "core/errors.h"
+#include "evaluation/data_path.h"
 
 namespace sidestep {
 namespace {

@@ -10,7 +10,7 @@
 
 namespace sidestep {
 
-struct RouteParams {
+struct GlobalRouteParams {
   std::string planner = "none";  ///< none, or a global planner that draws no random numbers
   double margin_m = 0.3;         ///< between the robot's rim and walls
   double resolution_m = 0.1;     ///< of the map made of the walls
@@ -26,9 +26,9 @@ struct RouteParams {
 ///
 /// Planned when the goal is another one, when the robot is far off, and when it does not get on; around walls, and
 /// around those that it has seen standing (if there is a way around them). The same views give the same paths.
-class Route {
+class GlobalRoute {
  public:
-  Route(const RouteParams& params, double radius_m) : params_(params), radius_m_(radius_m) {}
+  GlobalRoute(const GlobalRouteParams& params, double radius_m) : params_(params), radius_m_(radius_m) {}
 
   /// The path for this view, points every `spacing_m`; empty without walls, or if there is none. Valid until the next
   /// call.
@@ -46,7 +46,7 @@ class Route {
   GlobalPath plan(const DriverView& view, bool around_standing) const;
   void setPath(const std::vector<mrpt::math::TPose2D>& poses, const DriverView& view);
 
-  RouteParams params_;
+  GlobalRouteParams params_;
   double radius_m_;
   std::vector<mrpt::math::TPose2D> path_;
   mrpt::math::TPose2D goal_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation/route.h"
+#include "evaluation/global_route.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +68,7 @@ class Raster {
 
 }  // namespace
 
-void RouteParams::visit(ParamVisitor& v) {
+void GlobalRouteParams::visit(ParamVisitor& v) {
   v.choice("planner", planner, {"none", "astar", "theta", "dijkstra"},
            "way among the walls that the local planner gets; none: it goes straight for the goal");
   v.number("margin_m", margin_m, {0, 10}, "m", "room between the robot's rim and walls, where there is so much");
@@ -80,7 +80,7 @@ void RouteParams::visit(ParamVisitor& v) {
 }
 
 /// Who stands, and whether the robot itself does.
-void Route::note(const DriverView& view) {
+void GlobalRoute::note(const DriverView& view) {
   const auto look = [&](Rest& rest, const TPoint2D& position, bool is_new) {
     if (!is_new && (position - rest.position).norm() < kMoved_m) return;
     rest.position = position;
@@ -94,7 +94,7 @@ void Route::note(const DriverView& view) {
   }
 }
 
-bool Route::isDue(const DriverView& view) const {
+bool GlobalRoute::isDue(const DriverView& view) const {
   if (!planned_ || place(goal_) != place(view.goal) || view.time_s - own_.since_s > params_.patience_s) return true;
   if (path_.empty()) return false;
   double nearest = 1e9;
@@ -102,7 +102,7 @@ bool Route::isDue(const DriverView& view) const {
   return nearest > params_.off_m + params_.spacing_m;
 }
 
-GlobalPath Route::plan(const DriverView& view, bool around_standing) const {
+GlobalPath GlobalRoute::plan(const DriverView& view, bool around_standing) const {
   Raster raster(view, params_.resolution_m);
   if (around_standing)
     for (const auto& [id, rest] : others_)
@@ -123,7 +123,7 @@ GlobalPath Route::plan(const DriverView& view, bool around_standing) const {
   return out;
 }
 
-void Route::setPath(const std::vector<TPose2D>& poses, const DriverView& view) {
+void GlobalRoute::setPath(const std::vector<TPose2D>& poses, const DriverView& view) {
   path_.clear();
   path_.push_back(view.pose);
   const auto to = [&](const TPose2D& p) {
@@ -139,7 +139,7 @@ void Route::setPath(const std::vector<TPose2D>& poses, const DriverView& view) {
   to(view.goal);
 }
 
-const std::vector<TPose2D>& Route::at(const DriverView& view) {
+const std::vector<TPose2D>& GlobalRoute::at(const DriverView& view) {
   if (params_.planner == "none" || view.walls.empty()) return path_;
   note(view);
   if (!isDue(view)) return path_;
