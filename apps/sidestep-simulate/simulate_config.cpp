@@ -27,6 +27,14 @@ SimulateConfig effectiveConfig(const SimulateOptions& o) {
   if (!o.scenario.empty()) readYaml(o.scenario, [&](ParamVisitor& v) { c.visit(v); });
   if (o.seed && *o.seed < 0) throw ConfigError("--seed " + std::to_string(*o.seed) + ": must not be negative");
   if (o.seed) c.seed = *o.seed;
+  if (!o.planners.empty() || !o.snapshots_s.empty()) {
+    if (c.kind != "world") throw ConfigError("--planner, --snapshots: only of scenarios of kind: world");
+    if (o.planners.size() > 1 && o.snapshots_s.empty())
+      throw ConfigError("--planner: more than one only with --snapshots");
+    WorldParams& world = c.world.world;
+    if (!o.planners.empty() && !world.robot_names.empty())
+      world.robots.at(world.robot_names[0]).planner = o.planners[0];
+  }
   return c;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/params.h"
 #include "evaluation/world_scenario.h"
@@ -15,6 +16,8 @@ struct SimulateOptions {
   std::string scenario, output = "out";
   std::optional<int> seed;
   bool overwrite = false, quiet = false, no_picture = false, video = false, explain = false, write_config = false;
+  std::vector<std::string> planners;  ///< of the first robot, instead of the scenario's; more than one: for snapshots
+  std::vector<double> snapshots_s;
 };
 
 /// All that a scenario file may hold.

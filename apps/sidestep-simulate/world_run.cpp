@@ -4,6 +4,7 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +12,7 @@
 
 #include "datasets/log_writer.h"
 #include "evaluation/plan_explanation.h"
+#include "evaluation/plan_snapshots.h"
 #include "evaluation/planner_driver.h"
 #include "evaluation/timeline_figure.h"
 #include "evaluation/world_figure.h"
@@ -35,6 +37,7 @@ std::string metricsText(const SimulateConfig& config, const World& world, const 
                   {"seed", config.seed},
                   {"success", s.success},
                   {"arrived", s.arrived},
+                  {"goals_reached", s.goals_reached},
                   {"time_s", s.time_s},
                   {"path_m", s.path_m},
                   {"average_velocity", s.average_velocity},
@@ -69,11 +72,27 @@ void film(const WorldFigure& figure, const OutputFolder& folder) {
   std::filesystem::remove_all(frames);
 }
 
+/// A column for each planner of the command line, or one for the scenario's.
+void drawSnapshotsOf(const SimulateOptions& options, const SimulateConfig& config, const WorldInputs& inputs,
+                     const World& world, const OutputFolder& folder) {
+  WorldScenario scenario = config.world;
+  std::string& planner = scenario.world.robots.at(scenario.world.robot_names[0]).planner;
+  const auto planners = options.planners.empty() ? std::vector<std::string>{planner} : options.planners;
+  std::vector<double> times = options.snapshots_s;
+  std::sort(times.begin(), times.end());
+  std::vector<SnapshotColumn> columns;
+  for (const auto& name : planners) {
+    planner = name;
+    columns.push_back({name, takeSnapshots(scenario, static_cast<uint64_t>(config.seed), inputs, times)});
+  }
+  drawSnapshots(columns, world.walls().walls(), folder.file("snapshots.png"));
+}
+
 }  // namespace
 
 ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder) {
-  World world(config.world.world, static_cast<uint64_t>(config.seed),
-              readWorldInputs(config.world.world, options.scenario), plannerDrivers(config.world.planners));
+  const WorldInputs inputs = readWorldInputs(config.world.world, options.scenario);
+  World world(config.world.world, static_cast<uint64_t>(config.seed), inputs, plannerDrivers(config.world.planners));
   PlanExplanation explanation;
   if (options.explain) askForReasons(config.world, world, explanation);
   LogWriter log(folder.file("run.rawlog"), commandLine());
@@ -105,6 +124,7 @@ ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, 
     drawTimeline({recorder.figure().title, {{"", recorder.timeline()}}}, folder.file("timeline.png"));
   }
   if (options.video) film(recorder.figure(), folder);
+  if (!options.snapshots_s.empty() && !interrupted()) drawSnapshotsOf(options, config, inputs, world, folder);
   const WorldSummary s = summarize(world);
   std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", folder.file("run.rawlog").c_str(),
               s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m, world.contacts(0).contacts().size());

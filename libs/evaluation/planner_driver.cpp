@@ -3,14 +3,21 @@
 #include "evaluation/planner_driver.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sidestep {
 namespace {
 
 class PlannerDriver final : public Driver {
  public:
-  PlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits, PlanWatch watch)
-      : planner_(std::move(planner)), limits_(limits), watch_(std::move(watch)) {}
+  PlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits, const DriverParams& params,
+                PlanWatch watch)
+      : planner_(std::move(planner)),
+        limits_(limits),
+        tracking_(params.tracking),
+        predictor_(params.tracking.prediction),
+        route_(params.route, limits.radius_m),
+        watch_(std::move(watch)) {}
 
   mrpt::math::TTwist2D drive(const DriverView& view) override {
     PlanInput input;
@@ -18,8 +25,9 @@ class PlannerDriver final : public Driver {
     input.pose = view.pose;
     input.twist = view.twist;
     input.goal = view.goal;
+    input.path = route_.at(view);
     input.walls = view.walls;
-    input.moving = view.moving;
+    input.moving = moving(view);
     input.limits = limits_;
     input.period_s = view.period_s;
     planner_->plan(input, out_);
@@ -28,23 +36,51 @@ class PlannerDriver final : public Driver {
   }
 
  private:
+  std::span<const MovingObstacle> moving(const DriverView& view) {
+    if (tracking_.filter == "none") return view.moving;
+    for (const auto& o : view.moving) {
+      const double said = std::sqrt(std::max(o.covariance(0, 0), 0.0));
+      predictor_.observe(view.time_s, o.id, o.position, said > 0 ? said : tracking_.position_sd_m, o.radius_m);
+    }
+    predictor_.predict(view.time_s, tracked_);
+    return tracked_;
+  }
+
   std::unique_ptr<LocalPlanner> planner_;
   RobotLimits limits_;
+  TrackingParams tracking_;
+  MotionPredictor predictor_;
+  GlobalRoute route_;
   PlanWatch watch_;
+  std::vector<MovingObstacle> tracked_;
   PlanOutput out_;
 };
 
 }  // namespace
 
-std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
-                                          PlanWatch watch) {
-  return std::make_unique<PlannerDriver>(std::move(planner), limits, std::move(watch));
+void TrackingParams::visit(ParamVisitor& v) {
+  v.choice("filter", filter, {"none", "constant_velocity"},
+           "planners get positions and velocities as perceived; or what a Kalman filter makes of the positions, with "
+           "predicted paths and their covariance");
+  v.number("position_sd_m", position_sd_m, {0.001, 10}, "m", "noise of a position whose perception says nothing of it");
+  v.section("prediction", "the Kalman filter", [this](ParamVisitor& s) { prediction.visit(s); });
 }
 
-DriverFactory plannerDrivers(const LocalPlannerParams& params) {
+void DriverParams::visit(ParamVisitor& v) {
+  planners.visit(v);
+  v.section("tracking", "what planners are told of those who move", [this](ParamVisitor& s) { tracking.visit(s); });
+  v.section("route", "the global path that planners are given", [this](ParamVisitor& s) { route.visit(s); });
+}
+
+std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
+                                          const DriverParams& params, PlanWatch watch) {
+  return std::make_unique<PlannerDriver>(std::move(planner), limits, params, std::move(watch));
+}
+
+DriverFactory plannerDrivers(const DriverParams& params) {
   return [params](const std::string& name, const RobotLimits& limits) -> std::unique_ptr<Driver> {
     if (name == "straight" || name == "stand") return makeSimpleDriver(name, limits);
-    return makePlannerDriver(makeLocalPlanner(name, params), limits);
+    return makePlannerDriver(makeLocalPlanner(name, params.planners), limits, params);
   };
 }
 

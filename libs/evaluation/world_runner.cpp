@@ -179,8 +179,9 @@ struct WatchedRun {
       : world(scenario.world, seed, inputs, plannerDrivers(scenario.planners)), recorder(world) {
     const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
     if (isLocalPlanner(robot.planner))
-      world.setDriver(0, makePlannerDriver(makeLocalPlanner(robot.planner, scenario.planners), robot.limits,
-                                           [this](const PlanInput&, const PlanOutput& out) { count(out); }));
+      world.setDriver(
+          0, makePlannerDriver(makeLocalPlanner(robot.planner, scenario.planners.planners), robot.limits,
+                               scenario.planners, [this](const PlanInput&, const PlanOutput& out) { count(out); }));
     world.run([this] {
       recorder.note();
       return true;

@@ -25,7 +25,8 @@ std::vector<std::string> joinedNames(std::vector<std::string> first, const std::
 
 void WorldScenario::visit(ParamVisitor& v) {
   world.visit(v);
-  v.section("planners", "parameters of local planners, for all robots", [this](ParamVisitor& s) { planners.visit(s); });
+  v.section("planners", "local planners and what they are told, for all robots",
+            [this](ParamVisitor& s) { planners.visit(s); });
 }
 
 void WorldScenario::layOver(const std::string& yaml, const std::string& name) {

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "planning/planners.h"
+#include "evaluation/planner_driver.h"
 #include "simulation/world.h"
 
 namespace sidestep {
@@ -11,7 +11,7 @@ namespace sidestep {
 /// What a scenario of kind `world` holds: the world, and the parameters of the planners in it.
 struct WorldScenario {
   WorldParams world;
-  LocalPlannerParams planners;
+  DriverParams planners;
 
   void visit(ParamVisitor& v);
   /// Lays `yaml` over it. Walls, robots and people that it does not name stay, before the new ones.

@@ -50,16 +50,25 @@ std::vector<RecordedTrack> shifted(std::vector<RecordedTrack> tracks, double mos
   return tracks;
 }
 
+std::vector<mrpt::math::TPose2D> goalsOf(const RobotParams& p, const TPoint2D& goal) {
+  std::vector<mrpt::math::TPose2D> out;
+  for (const auto& row : p.goals) out.emplace_back(row[0], row[1], 0);
+  if (out.empty()) out.emplace_back(goal.x, goal.y, 0);
+  return out;
+}
+
 /// A robot with its wheels, its eyes and whoever drives it.
 struct Robot {
-  Robot(const RobotParams& p, const mrpt::math::TPose2D& start, uint64_t seed, size_t index)
+  Robot(const RobotParams& p, const RobotStart& start, uint64_t seed, size_t index)
       : params(p),
-        drive(p.drive, p.limits, start, robotRandom(seed, index, kWheels)),
+        goals(goalsOf(p, start.goal)),
+        drive(p.drive, p.limits, start.pose, robotRandom(seed, index, kWheels)),
         perception(p.perception, robotRandom(seed, index, kPerception)),
         meter(static_cast<int>(index)) {
     drive.startAt(p.start_speed);
   }
   RobotParams params;
+  std::vector<mrpt::math::TPose2D> goals;  ///< in order, one at least
   DiffDrive drive;
   Perception perception;
   ContactMeter meter;
@@ -120,10 +129,10 @@ World::Impl::Impl(const WorldParams& p, uint64_t seed, WorldInputs inputs, const
   for (size_t i = 0; i < params.robot_names.size(); ++i) {
     const RobotParams& robot = params.robots.at(params.robot_names[i]);
     const RobotStart start = drawStart(robot, robotRandom(seed, i, kStart), crowd.people(), walls);
-    robots.emplace_back(robot, start.pose, seed, i);
+    robots.emplace_back(robot, start, seed, i);
     robots.back().driver = factory(robot.planner, robot.limits);
     states.emplace_back();
-    states.back().goal = {start.goal.x, start.goal.y, 0};
+    states.back().goal = robots.back().goals.front();
     states.back().radius_m = robot.limits.radius_m;
   }
   bodies.resize(robots.size());
@@ -140,6 +149,11 @@ void World::Impl::publish() {
     bodies[i] = {{s.pose.x, s.pose.y}, {s.twist.vx * c, s.twist.vx * n}, s.radius_m};
     const double to_goal = std::hypot(s.goal.x - s.pose.x, s.goal.y - s.pose.y);
     if (s.arrived || to_goal > robots[i].params.goal_tolerance_m) continue;
+    const auto& goals = robots[i].goals;
+    if (const auto next = static_cast<size_t>(++s.goals_reached); next < goals.size()) {
+      s.goal = goals[next];
+      continue;
+    }
     s.arrived = true;
     s.arrived_s = time_s;
   }
@@ -322,6 +336,7 @@ WorldSummary summarize(const World& world) {
   const ContactMeter& meter = world.contacts(0);
   WorldSummary out;
   out.arrived = robot.arrived;
+  out.goals_reached = robot.goals_reached;
   out.time_s = robot.arrived_s.value_or(world.time());
   out.path_m = robot.path_m;
   out.average_velocity = out.time_s > 0 ? out.path_m / out.time_s : 0;

@@ -27,6 +27,7 @@ void RobotParams::visit(ParamVisitor& v) {
   v.number("goal_x_m", goal_x_m, {-1e5, 1e5}, "m", "goal");
   v.number("goal_y_m", goal_y_m, {-1e5, 1e5}, "m", "goal");
   v.number("goal_tolerance_m", goal_tolerance_m, {0.001, 100}, "m", "so near, the goal is reached");
+  v.table("goals", {"x", "y"}, goals, "goals to reach one after the other, instead of goal_x_m, goal_y_m [m]");
   v.section("route", "start and goal at random", [this](ParamVisitor& w) { route.visit(w); });
   v.text("planner", planner, "who drives: straight (turns to the goal and goes), stand, or a local planner");
   v.flag("sees_robot", sees_robot, "false: drives as if the first robot were not there");

@@ -28,6 +28,7 @@ struct RouteParams {
 struct RobotParams {
   double x_m = 0, y_m = 0, yaw = 0;  ///< start
   double goal_x_m = 0, goal_y_m = 0, goal_tolerance_m = 0.3;
+  Table goals;               ///< x, y: to be reached one after the other; empty: the one above
   double start_shift_m = 0;  ///< start: at random within so much in x and y
   double start_speed = 0;    ///< m/s
   RouteParams route;
