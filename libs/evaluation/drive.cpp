@@ -7,6 +7,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/poses/CPose2D.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -45,6 +46,20 @@ mrpt::math::TPose2D inMap(const LocalizeConfig& config, const mrpt::math::TPose2
   return (T_map_truth + mrpt::poses::CPose2D(truth)).asTPose();
 }
 
+/// Sums over the streams of a kind; `kind_of` names the kind of a label.
+template <class KindOf>
+void takeNis(const Localizer& localizer, const LocalizeConfig& config, const KindOf& kind_of, DriveResult& out) {
+  out.gate_probability = config.gateProbability();
+  for (const auto& s : localizer.sensors()) {
+    if (s.nis_count == 0) continue;
+    const std::string kind = kind_of(s.label);
+    auto it = std::find_if(out.nis.begin(), out.nis.end(), [&](const auto& k) { return k.kind == kind; });
+    if (it == out.nis.end()) it = out.nis.insert(it, {kind, 0, 0, s.nis_dof});
+    it->sum += s.nis_sum;
+    it->count += s.nis_count;
+  }
+}
+
 bool isLost(const LogEntry& e, double time_s, const SignalLoss& loss) {
   if (!loss.any() || !loss.covers(time_s)) return false;
   if (e.kind == SensorKind::kImu) return loss.theta;
@@ -81,6 +96,8 @@ DriveResult localizeSimulated(const LocalizationScenario& scenario, const Locali
   localizer.finish();
   pairs.take(localizer);
   out.fixes = localizer.takeFixes();
+  takeNis(
+      localizer, config, [](const std::string& label) { return label; }, out);
   return out;
 }
 
@@ -144,6 +161,8 @@ DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& c
   take();
   out.fixes = localizer.takeFixes();
   out.gave_fixes = config.uses("gps") && !out.fixes.empty();
+  takeNis(
+      localizer, config, [&](const std::string& label) { return word(feed.kinds().at(label)); }, out);
   return out;
 }
 

@@ -28,6 +28,8 @@ struct LocalizationMetrics {
   double peak_memory_mb = 0;                           ///< [MiB], see peakMemoryMb()
   std::optional<TrajectoryErrors> estimate, odometry;  ///< nothing without truth
   std::map<std::string, SensorCounts> sensors;         ///< by label
+  std::optional<uint64_t> most_modes;                  ///< places at once where the robot may have been (pf, mcl)
+  std::optional<double> several_modes_share;           ///< share of the looks that saw more than one
   std::string truth_source;                            ///< empty without truth
   std::vector<std::string> warnings;
   bool partial = false;  ///< the run was interrupted

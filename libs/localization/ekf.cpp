@@ -13,14 +13,13 @@
 namespace sidestep {
 namespace {
 constexpr int kOffset = 3, kBias = 4, kScale = 5, kTurnScale = 6, kPull = 7;
+}  // namespace
 
-/// P(chi^2_k <= q), k = 1, 2, 3 in closed form.
 double chiSquareCdf(double q, int dof) {
   if (dof == 2) return 1 - std::exp(-q / 2);
   const double one = std::erf(std::sqrt(q / 2));
   return dof == 1 ? one : one - std::sqrt(2 * q / M_PI) * std::exp(-q / 2);
 }
-}  // namespace
 
 double chiSquareQuantile(double probability, int dof) {
   double low = 0, high = 1;

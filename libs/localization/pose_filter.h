@@ -31,6 +31,12 @@ struct PoseBelief {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
+/// One of several places where the robot may be.
+struct PoseMode {
+  double weight = 0;  ///< probability that it is here
+  PoseBelief belief;
+};
+
 /// A recursive estimator of the robot's pose in the plane.
 ///
 /// Given `start`, then in time order `predict` for each stretch of motion and `correct` for each measurement that falls
@@ -46,6 +52,8 @@ class PoseFilter {
   virtual PoseBelief estimate() const = 0;
   /// Probability that the estimate is off by more than 1 m, of filters that can tell.
   virtual std::optional<double> lostProbability() const { return std::nullopt; }
+  /// The places where the robot may be, heaviest first, of filters that can hold several; else nothing.
+  virtual std::vector<PoseMode> modes() const { return {}; }
   /// State into `out`, which keeps its memory between calls.
   virtual void save(std::vector<double>& out) const = 0;
   virtual void restore(const std::vector<double>& state) = 0;
