@@ -226,8 +226,10 @@ LocalizationMetrics Run::metrics() const {
     out.refused = s.refused;
     out.nis_dof = s.nis_dof;
     if (s.nis_count > 0) out.mean_nis = s.nis_sum / static_cast<double>(s.nis_count);
+    out.nis_independent = s.nis_independent;
     if (s.nis_count >= kEnoughToJudge && config_.gateProbability())
-      out.consistency = judgeNis(*out.mean_nis, s.nis_count, s.nis_dof, *config_.gateProbability());
+      out.consistency = judgeSensor(*out.mean_nis, static_cast<double>(s.nis_count), s.nis_independent, s.nis_dof,
+                                    *config_.gateProbability());
   }
   for (const auto& [label, reasons] : reader_.refused())
     for (const auto& [reason, n] : reasons) {

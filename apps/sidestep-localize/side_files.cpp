@@ -59,8 +59,10 @@ ConsistencyFigure InnovationLog::figure(const LocalizationMetrics& metrics, doub
   }
   for (const auto& [label, track] : tracks_) {
     const auto it = metrics.sensors.find(label);
-    const bool known = it != metrics.sensors.end() && it->second.consistency;
-    out.sensors.push_back({label, track, gate_probability, known ? it->second.consistency->verdict : ""});
+    if (it == metrics.sensors.end() || it->second.used == 0) continue;
+    const double share = it->second.nis_independent / static_cast<double>(it->second.used);
+    out.sensors.push_back({label, track, share < 0.999 ? 1 : gate_probability, std::min(1.0, share),
+                           it->second.consistency ? it->second.consistency->verdict : ""});
   }
   return out;
 }

@@ -50,7 +50,8 @@ Consistency judged(double mean, const ConsistencyBand& band, double factor) {
 
 }  // namespace
 
-ConsistencyBand nisBand(uint64_t n, int dof, double gate_probability) {
+ConsistencyBand nisBand(double n, int dof, double gate_probability) {
+  if (n < 30) return neesBand(std::max(1.0, n), dof);
   const double k = dof;
   double mean = k, square = k * (k + 2);
   if (gate_probability < 1) {
@@ -59,7 +60,7 @@ ConsistencyBand nisBand(uint64_t n, int dof, double gate_probability) {
     mean = meanBelow(q, gate_probability, k);
     square = k * (k + 2) * F4 / gate_probability;
   }
-  const double half = kNormal95 * std::sqrt((square - mean * mean) / static_cast<double>(n));
+  const double half = kNormal95 * std::sqrt((square - mean * mean) / n);
   return {mean, mean - half, mean + half};
 }
 
@@ -71,8 +72,12 @@ ConsistencyBand neesBand(double effective, int dof) {
   return {static_cast<double>(dof), quantile(-kNormal95), quantile(kNormal95)};
 }
 
-Consistency judgeNis(double mean_nis, uint64_t n, int dof, double gate_probability) {
+Consistency judgeNis(double mean_nis, double n, int dof, double gate_probability) {
   return judged(mean_nis, nisBand(n, dof, gate_probability), factorOf(mean_nis, dof, gate_probability));
+}
+
+Consistency judgeSensor(double mean_nis, double count, double independent, int dof, double gate_probability) {
+  return judgeNis(mean_nis, independent, dof, independent < 0.999 * count ? 1 : gate_probability);
 }
 
 Consistency judgeNees(double mean_nees, double effective, int dof) {

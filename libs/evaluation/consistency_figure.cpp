@@ -68,15 +68,13 @@ Panel nisPanel(const ConsistencyFigure::Sensor& sensor, double start_s) {
   p.title = "NIS of " + sensor.label + ", " + std::to_string(track.dof()) +
             (track.dof() == 1 ? " degree of freedom" : " degrees of freedom") +
             (sensor.verdict.empty() ? "" : ": " + sensor.verdict);
-  p.expected = nisBand(1, track.dof(), sensor.gate_probability).expected;
+  p.expected = nisBand(100, track.dof(), sensor.gate_probability).expected;
   for (const auto& point : track.points()) {
     addRow(point.accepted ? p.accepted : p.refused, {point.time_s - start_s, point.value});
     p.see(point.value);
   }
   for (const auto& b : track.blocks()) {
-    // Of few measurements the mean is no Gaussian: the chi-square's own quantiles, of as many degrees in all.
-    const auto band = b.count < 30 ? neesBand(static_cast<double>(b.count), track.dof())
-                                   : nisBand(b.count, track.dof(), sensor.gate_probability);
+    const auto band = nisBand(static_cast<double>(b.count) * sensor.independent, track.dof(), sensor.gate_probability);
     p.addMean(0.5 * (b.from_s + b.to_s) - start_s, b.sum / static_cast<double>(b.count), band);
   }
   return p;

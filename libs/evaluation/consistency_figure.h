@@ -41,6 +41,7 @@ struct ConsistencyFigure {
     std::string label;
     NisTrack track;
     double gate_probability = 1;
+    double independent = 1;  ///< share of the measurements that are worth one of their own
     std::string verdict;
   };
   std::string title;

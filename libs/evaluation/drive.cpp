@@ -54,9 +54,10 @@ void takeNis(const Localizer& localizer, const LocalizeConfig& config, const Kin
     if (s.nis_count == 0) continue;
     const std::string kind = kind_of(s.label);
     auto it = std::find_if(out.nis.begin(), out.nis.end(), [&](const auto& k) { return k.kind == kind; });
-    if (it == out.nis.end()) it = out.nis.insert(it, {kind, 0, 0, s.nis_dof});
+    if (it == out.nis.end()) it = out.nis.insert(it, {kind, 0, 0, 0, s.nis_dof});
     it->sum += s.nis_sum;
-    it->count += s.nis_count;
+    it->count += static_cast<double>(s.nis_count);
+    it->independent += s.nis_independent;
   }
 }
 

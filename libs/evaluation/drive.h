@@ -25,7 +25,7 @@ struct SignalLoss {
 struct KindNis {
   std::string kind;  ///< "gps", "imu", "beacons"
   double sum = 0;
-  uint64_t count = 0;
+  double count = 0, independent = 0;
   int dof = 0;
 };
 

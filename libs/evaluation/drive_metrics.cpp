@@ -103,8 +103,8 @@ void addNees(const DriveResult& result, std::vector<double>& out) {
 void addNis(const DriveResult& result, const std::string& kind, std::vector<double>& out) {
   const auto it = std::find_if(result.nis.begin(), result.nis.end(), [&](const auto& k) { return k.kind == kind; });
   if (it == result.nis.end() || !result.gate_probability) return out.resize(out.size() + 2, kNaN);
-  const double mean = it->sum / static_cast<double>(it->count);
-  const Consistency c = judgeNis(mean, it->count, it->dof, *result.gate_probability);
+  const double mean = it->sum / it->count;
+  const Consistency c = judgeSensor(mean, it->count, it->independent, it->dof, *result.gate_probability);
   out.insert(out.end(), {mean / c.band.expected, c.verdict == "consistent" ? 1.0 : 0.0});
 }
 

@@ -79,6 +79,7 @@ Json toJson(const SensorCounts& counts) {
                {"mean_nis", orNull(counts.mean_nis)},
                {"nis_dof", counts.nis_dof}};
   if (const auto& c = counts.consistency) {
+    json["nis_independent"] = orNull(counts.nis_independent);
     json["nis_expected"] = orNull(c->band.expected);
     json["nis_low"] = orNull(c->band.low);
     json["nis_high"] = orNull(c->band.high);

@@ -209,6 +209,11 @@ Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1
   Eigen::Matrix<double, M, M> S_inverse = S.inverse();
   Correction result{Correction::Reason::kAccepted, nu.dot(S_inverse * nu), M};
   if (!std::isfinite(result.nis) || result.nis < 0) return {Correction::Reason::kNotFinite, 0, M};
+  result.nis_single = result.nis;
+  if (m.raised > 1) {
+    const Eigen::Matrix<double, M, M> S_single = S - (1 - 1 / m.raised) * R;
+    result.nis_single = nu.dot(S_single.inverse() * nu);
+  }
   if (params_.gate && result.nis > gate_[M]) {
     if (!patience_.lostBy(m, params_.gate_patience_s)) {
       result.reason = Correction::Reason::kGated;

@@ -150,10 +150,13 @@ void Localizer::count(Event& event, const Correction& c) {
   if (c.dof > 0 && c.reason != Correction::Reason::kNotFinite) {
     u.nis_dof = c.dof;
     if (records_innovations_)
-      innovations_.push_back({event.measurement.stream, event.time_s, c.nis, c.dof, c.accepted()});
+      innovations_.push_back({event.measurement.stream, event.time_s, c.nis_single, c.dof, c.accepted()});
     if (c.accepted()) {
-      u.nis_sum += c.nis;
+      u.nis_sum += c.nis_single;
       ++u.nis_count;
+      // Squares of errors that are alike over tau are alike over tau / 2: of n in a time T, T / tau count; raised is 2
+      // tau n / T.
+      u.nis_independent += std::min(1.0, 2 / event.measurement.raised);
     }
   }
   if (c.accepted())

@@ -61,8 +61,9 @@ struct SensorUse {
   std::string label;
   uint64_t read = 0, used = 0;
   std::map<std::string, uint64_t> refused;  ///< by reason
-  double nis_sum = 0;
+  double nis_sum = 0;                       ///< of Correction::nis_single
   uint64_t nis_count = 0;
+  double nis_independent = 0;  ///< how many of those are worth one of their own; fewer if neighbouring errors are alike
   int nis_dof = 0;
 };
 

@@ -59,9 +59,12 @@ void PfParams::visit(ParamVisitor& v) {
   v.angle("heading_offset_sd_deg", heading_offset_sd, {0, 360}, "sd of the IMU's unknown heading offset; 0 = none");
   v.angle("heading_offset_walk_deg", heading_offset_walk, {0, 90}, "how much that offset drifts in a second");
   v.angle("yaw_rate_bias_sd_deg", yaw_rate_bias_sd, {0, 90}, "sd of the gyro's unknown bias (deg/s); 0 = none");
-  v.angle("yaw_rate_bias_walk_deg", yaw_rate_bias_walk, {0, 90}, "how much that bias drifts in a second (deg/s)");
+  v.angle("yaw_rate_bias_walk_deg", yaw_rate_bias_walk, {0, 90},
+          "how much that bias drifts in a second (deg/s); with 0 "
+          "particles end up believing in one value, right or wrong");
   v.number("wheel_scale_sd", wheel_scale_sd, {0, 1}, "", "sd of the wheels' unknown scale error; 0 = none");
-  v.number("wheel_scale_walk", wheel_scale_walk, {0, 1}, "1/sqrt(s)", "how much that scale drifts in a second");
+  v.number("wheel_scale_walk", wheel_scale_walk, {0, 1}, "1/sqrt(s)",
+           "how much that scale drifts in a second; 0: as above");
   v.section("resampling", "how the next particles are drawn", [this](ParamVisitor& w) { resampling.visit(w); });
 }
 
@@ -267,6 +270,12 @@ Correction ParticleFilter::correctPose(const Measurement& m) {
   const Eigen::Matrix3d S = meanSquares(size, nu) + R;  // the identity in rows that do not count
   Correction result{Correction::Reason::kAccepted,
                     nu.head(size).dot(S.inverse().topLeftCorner(size, size) * nu.head(size)), size};
+  result.nis_single = result.nis;
+  if (m.raised > 1) {
+    Eigen::Matrix3d S_single = S;
+    S_single.topLeftCorner(size, size) -= (1 - 1 / m.raised) * m.R.topLeftCorner(size, size);
+    result.nis_single = nu.head(size).dot(S_single.inverse().topLeftCorner(size, size) * nu.head(size));
+  }
   if (params_.likelihood == "printed" && m.kind != Kind::kStill) {
     weighAsPrinted(size);
     multiplyWeights(0);

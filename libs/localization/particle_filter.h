@@ -28,9 +28,9 @@ struct PfParams {
   double heading_offset_sd = 0.785398163397448279;  // rad
   double heading_offset_walk = 0;                   // rad / sqrt(s)
   double yaw_rate_bias_sd = 0;                      // rad/s
-  double yaw_rate_bias_walk = 0;                    // rad/s / sqrt(s)
+  double yaw_rate_bias_walk = 5e-5;                 // rad/s / sqrt(s)
   double wheel_scale_sd = 0;
-  double wheel_scale_walk = 0;  // 1 / sqrt(s)
+  double wheel_scale_walk = 0.0005;  // 1 / sqrt(s)
   ResamplingParams resampling;
 
   void visit(ParamVisitor& v);

@@ -17,8 +17,9 @@ namespace sidestep {
 struct Correction {
   enum class Reason { kAccepted, kReset, kGated, kNotFinite, kTooLate, kNotObservable, kNothingNew };
   Reason reason = Reason::kAccepted;
-  double nis = 0;  ///< normalized innovation squared, against the covariance before the correction
-  int dof = 0;     ///< its degrees of freedom
+  double nis = 0;         ///< normalized innovation squared, against the covariance before the correction
+  int dof = 0;            ///< its degrees of freedom
+  double nis_single = 0;  ///< NIS with the variance of this measurement by itself (Measurement::raised)
   bool accepted() const { return reason == Reason::kAccepted || reason == Reason::kReset; }
 };
 

@@ -82,7 +82,8 @@ TEST(Consistency, IsToldInOneLine) {
       consistencyLine("gps", "NIS", 18, judgeNis(18, 100, 2, 1)),
       "gps: over-confident: mean NIS 18, consistent is 1.61 .. 2.39; its errors have about 3 times the sd that the "
       "filter believes in");
-  EXPECT_EQ(consistencyLine("gps", "NIS", 2, judgeNis(2, 100, 2, 1)), "gps: consistent: mean NIS 2, consistent is 1.61 .. 2.39");
+  EXPECT_EQ(consistencyLine("gps", "NIS", 2, judgeNis(2, 100, 2, 1)),
+            "gps: consistent: mean NIS 2, consistent is 1.61 .. 2.39");
 }
 
 }  // namespace

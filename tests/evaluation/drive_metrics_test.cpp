@@ -58,7 +58,8 @@ TEST(DriveMetrics, ALossIsMeasuredAgainstTheTwinWithoutIt) {
 }
 
 TEST(DriveMetrics, WhatNeverRecoversCountsUntilTheEnd) {
-  const auto m = driveMetrics(driveWith({1, 1, 5, 5, 5, 5}), errorsOf(driveWith({1, 1, 1, 1, 1, 1})), {true, false, 2, 3}, 0);
+  const auto m =
+      driveMetrics(driveWith({1, 1, 5, 5, 5, 5}), errorsOf(driveWith({1, 1, 1, 1, 1, 1})), {true, false, 2, 3}, 0);
   EXPECT_DOUBLE_EQ(value(m, "recovery_s"), 2);  // from 3 s to 5 s
 }
 
