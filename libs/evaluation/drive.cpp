@@ -7,6 +7,8 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/poses/CPose2D.h>
 
+#include <algorithm>
+
 #include "core/errors.h"
 #include "datasets/log_reader.h"
 
@@ -40,6 +42,21 @@ mrpt::math::TPose2D inMap(const LocalizeConfig& config, const mrpt::math::TPose2
   if (!config.truth_frame_given) return truth;
   const mrpt::poses::CPose2D T_map_truth(config.truth_x_m, config.truth_y_m, config.truth_yaw);
   return (T_map_truth + mrpt::poses::CPose2D(truth)).asTPose();
+}
+
+/// Sums over the streams of a kind; `kind_of` names the kind of a label.
+template <class KindOf>
+void takeNis(const Localizer& localizer, const LocalizeConfig& config, const KindOf& kind_of, DriveResult& out) {
+  out.gate_probability = config.gateProbability();
+  for (const auto& s : localizer.sensors()) {
+    if (s.nis_count == 0) continue;
+    const std::string kind = kind_of(s.label);
+    auto it = std::find_if(out.nis.begin(), out.nis.end(), [&](const auto& k) { return k.kind == kind; });
+    if (it == out.nis.end()) it = out.nis.insert(it, {kind, 0, 0, 0, s.nis_dof});
+    it->sum += s.nis_sum;
+    it->count += static_cast<double>(s.nis_count);
+    it->independent += s.nis_independent;
+  }
 }
 
 bool isLost(const LogEntry& e, double time_s, const SignalLoss& loss) {
@@ -78,6 +95,8 @@ DriveResult localizeSimulated(const LocalizationScenario& scenario, const Locali
   localizer.finish();
   pairs.take(localizer);
   out.fixes = localizer.takeFixes();
+  takeNis(
+      localizer, config, [](const std::string& label) { return label; }, out);
   return out;
 }
 
@@ -141,6 +160,8 @@ DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& c
   take();
   out.fixes = localizer.takeFixes();
   out.gave_fixes = config.uses("gps") && !out.fixes.empty();
+  takeNis(
+      localizer, config, [&](const std::string& label) { return word(feed.kinds().at(label)); }, out);
   return out;
 }
 

@@ -3,6 +3,9 @@
 #include "evaluation/localization_runner.h"
 
 #include <filesystem>
+#include <map>
+#include <mutex>
+#include <tuple>
 
 #include "core/errors.h"
 #include "evaluation/data_path.h"
@@ -81,6 +84,11 @@ class LocalizationRunner final : public StudyRunner {
   DriveResult localize(const StudyPlace& place, const SignalLoss& loss) const;
   SignalLoss lossOf(const StudyPlace& place) const;
 
+  std::shared_ptr<const DriveErrors> twinOf(const StudyPlace& place) const;
+
+  using TwinKey = std::tuple<uint64_t, uint64_t, uint64_t, size_t>;
+  mutable std::mutex twins_mutex_;
+  mutable std::map<TwinKey, std::shared_ptr<const DriveErrors>> twins_;
   std::string file_;
   std::vector<ScenarioEntry> scenarios_;
   std::vector<std::string> algorithms_;
@@ -191,10 +199,24 @@ DriveResult LocalizationRunner::localize(const StudyPlace& place, const SignalLo
   return result;
 }
 
+/// The twin's errors. It is the same for all lengths and kinds of loss, so it is run once.
+std::shared_ptr<const DriveErrors> LocalizationRunner::twinOf(const StudyPlace& place) const {
+  const auto& s = scenarios_[place.scenario];
+  const TwinKey key{textHash(s.set + '\n' + s.log + '\n' + s.ground_truth + '\n' + s.config), place.world_seed,
+                    place.algorithm_seed, place.algorithm};
+  {
+    const std::lock_guard lock(twins_mutex_);
+    if (const auto it = twins_.find(key); it != twins_.end()) return it->second;
+  }
+  auto made = std::make_shared<const DriveErrors>(errorsOf(localize(place, {})));  // the same, whoever makes it
+  const std::lock_guard lock(twins_mutex_);
+  return twins_.emplace(key, std::move(made)).first->second;
+}
+
 std::vector<double> LocalizationRunner::run(const StudyPlace& place) const {
   const SignalLoss loss = lossOf(place);
-  const DriveResult twin = loss.any() ? localize(place, {}) : DriveResult{};
-  return driveMetrics(localize(place, loss), twin, loss, scenarios_[place.scenario].interruption.settle_s);
+  const auto twin = loss.any() ? twinOf(place) : std::make_shared<const DriveErrors>();
+  return driveMetrics(localize(place, loss), *twin, loss, scenarios_[place.scenario].interruption.settle_s);
 }
 
 bool LocalizationRunner::draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const {

@@ -71,7 +71,8 @@ std::string rangeAround(const char* axis, double low, double high) {
 std::string logarithm(const char* axis) { return std::string("set logscale ") + axis + " 10\n"; }
 
 /// Rows of the table without an axis: a cluster a scenario, a bar an algorithm.
-void drawBars(const Study& study, const std::string& metric, const Lines& lines, const std::string& png) {
+void drawBars(const Study& study, const std::string& metric, const std::string& what, const Lines& lines,
+              const std::string& png) {
   std::vector<std::string> scenarios;
   for (const auto* l : lines)
     if (scenarios.empty() || scenarios.back() != l->scenario) scenarios.push_back(l->scenario);
@@ -106,7 +107,7 @@ void drawBars(const Study& study, const std::string& metric, const Lines& lines,
     tics += (i > 0 ? ", " : "") + gnuplotQuoted(scenarios[i]) + " " + std::to_string(i);
   const int width = std::clamp(200 + static_cast<int>(scenarios.size() * (40 + 26 * algorithms.size())), 800, 2200);
   const bool many = scenarios.size() > 4;
-  runGnuplot(blocks + head(axisTitle(metric) + ", mean and 95 % interval", png, width, many ? 640 : 560) +
+  runGnuplot(blocks + head(axisTitle(metric) + ", " + what + " and 95 % interval", png, width, many ? 640 : 560) +
                  (wantsLogarithm(lines) ? logarithm("y") : "set yrange [0:*]\n") + "set ylabel " +
                  gnuplotQuoted(axisTitle(metric)) + "\nset xtics noenhanced (" + tics + ")" +
                  (many ? " rotate by -25" : "") + "\nset xrange [-0.6:" + std::to_string(scenarios.size() - 1) +
@@ -115,8 +116,8 @@ void drawBars(const Study& study, const std::string& metric, const Lines& lines,
 }
 
 /// Rows on an axis: a curve an algorithm, or, where the group holds several scenarios, one each.
-void drawCurves(const Study& study, const std::string& metric, const std::string& group, const Lines& lines,
-                const std::string& png) {
+void drawCurves(const Study& study, const std::string& metric, const std::string& what, const std::string& group,
+                const Lines& lines, const std::string& png) {
   std::map<std::pair<size_t, size_t>, std::string> data;  // by entry and algorithm
   std::map<size_t, std::string> entries;
   for (const auto* l : lines) {
@@ -152,7 +153,7 @@ void drawCurves(const Study& study, const std::string& metric, const std::string
   }
   if (curves.empty()) return;
   curves.resize(curves.size() - 2);
-  runGnuplot(blocks + head(group + ": " + axisTitle(metric) + ", mean and 95 % band", png, 900, 600) +
+  runGnuplot(blocks + head(group + ": " + axisTitle(metric) + ", " + what + " and 95 % band", png, 900, 600) +
                  (wantsLogarithm(lines) ? logarithm("y") + rangeAround("y", least, most) : "set yrange [0:*]\n") +
                  (log_x ? logarithm("x") + rangeAround("x", low, high) : "") + "set xtics (" + tics + ")\nset xlabel " +
                  gnuplotQuoted(axisTitle(study.rows()[lines.front()->row].axis)) + " offset 0,0.6\nset ylabel " +
@@ -160,8 +161,9 @@ void drawCurves(const Study& study, const std::string& metric, const std::string
              png);
 }
 
-void drawMetric(const Study& study, const std::string& metric, const std::vector<SummaryLine>& lines,
-                const std::string& folder, std::vector<StudyFigure>& out) {
+/// @param what  "mean" or "median"
+void drawMetric(const Study& study, const std::string& metric, const std::string& what,
+                const std::vector<SummaryLine>& lines, const std::string& folder, std::vector<StudyFigure>& out) {
   Lines plain;
   std::vector<std::pair<std::string, Lines>> groups;
   for (const auto& l : lines) {
@@ -180,11 +182,13 @@ void drawMetric(const Study& study, const std::string& metric, const std::vector
     draw(file);
     if (std::filesystem::exists(file)) out.push_back({name, title});
   };
+  const std::string name = what == "mean" ? metric : metric + "-" + what;
+  const std::string title = axisTitle(metric) + (what == "mean" ? "" : ", " + what);
   if (!plain.empty())
-    finish(fileName(metric), axisTitle(metric), [&](const auto& png) { drawBars(study, metric, plain, png); });
+    finish(fileName(name), title, [&](const auto& png) { drawBars(study, metric, what, plain, png); });
   for (const auto& [group, members] : groups)
-    finish(fileName(metric + "-" + group), group + ": " + axisTitle(metric),
-           [&, &g = group, &m = members](const auto& png) { drawCurves(study, metric, g, m, png); });
+    finish(fileName(name + "-" + group), group + ": " + title,
+           [&, &g = group, &m = members](const auto& png) { drawCurves(study, metric, what, g, m, png); });
 }
 
 /// The first run of each row with each algorithm of `pictures`, and all of them over time.
@@ -212,9 +216,10 @@ void drawRuns(const Study& study, const std::string& folder, std::vector<StudyFi
 }  // namespace
 
 std::vector<StudyFigure> drawStudy(const Study& study, const std::vector<SummaryLine>& lines,
-                                   const std::string& folder) {
+                                   const std::vector<SummaryLine>& medians, const std::string& folder) {
   std::vector<StudyFigure> out;
-  for (const auto& metric : study.figures) drawMetric(study, metric, lines, folder, out);
+  for (const auto& metric : study.figures) drawMetric(study, metric, "mean", lines, folder, out);
+  for (const auto& metric : study.medians) drawMetric(study, metric, "median", medians, folder, out);
   drawRuns(study, folder, out);
   return out;
 }

@@ -54,7 +54,7 @@ Consistency judged(uint64_t seed, double factor, double gate_probability) {
     sum += nis;
     ++n;
   }
-  return judge(sum / 200, n, 2, gate_probability);
+  return judgeNis(sum / 200, n, 2, gate_probability);
 }
 
 TEST(Consistency, MatchedNoisePassesAtNinetyFivePercent) {
@@ -79,10 +79,11 @@ TEST(Consistency, ANoiseThreeTimesWrongIsNamed) {
 
 TEST(Consistency, IsToldInOneLine) {
   EXPECT_EQ(
-      consistencyLine("gps", 18, judge(18, 100, 2, 1)),
+      consistencyLine("gps", "NIS", 18, judgeNis(18, 100, 2, 1)),
       "gps: over-confident: mean NIS 18, consistent is 1.61 .. 2.39; its errors have about 3 times the sd that the "
       "filter believes in");
-  EXPECT_EQ(consistencyLine("gps", 2, judge(2, 100, 2, 1)), "gps: consistent: mean NIS 2, consistent is 1.61 .. 2.39");
+  EXPECT_EQ(consistencyLine("gps", "NIS", 2, judgeNis(2, 100, 2, 1)),
+            "gps: consistent: mean NIS 2, consistent is 1.61 .. 2.39");
 }
 
 }  // namespace

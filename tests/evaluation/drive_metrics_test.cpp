@@ -51,7 +51,7 @@ TEST(DriveMetrics, ALossIsMeasuredAgainstTheTwinWithoutIt) {
   const auto twin = driveWith({1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
   const auto run = driveWith({1, 1, 1, 2, 4, 6, 3, 2, 1, 1});
   const SignalLoss loss{true, true, 3, 6};  // seconds 3, 4, 5
-  const auto m = driveMetrics(run, twin, loss, 0);
+  const auto m = driveMetrics(run, errorsOf(twin), loss, 0);
   EXPECT_DOUBLE_EQ(value(m, "outage_error_m"), 4);
   EXPECT_DOUBLE_EQ(value(m, "outage_end_error_m"), 6);
   EXPECT_DOUBLE_EQ(value(m, "outage_added_m"), 5);
@@ -59,13 +59,14 @@ TEST(DriveMetrics, ALossIsMeasuredAgainstTheTwinWithoutIt) {
 }
 
 TEST(DriveMetrics, WhatNeverRecoversCountsUntilTheEnd) {
-  const auto m = driveMetrics(driveWith({1, 1, 5, 5, 5, 5}), driveWith({1, 1, 1, 1, 1, 1}), {true, false, 2, 3}, 0);
+  const auto m =
+      driveMetrics(driveWith({1, 1, 5, 5, 5, 5}), errorsOf(driveWith({1, 1, 1, 1, 1, 1})), {true, false, 2, 3}, 0);
   EXPECT_DOUBLE_EQ(value(m, "recovery_s"), 2);  // from 3 s to 5 s
 }
 
 TEST(DriveMetrics, WhatTheLossDidNotHarmIsRecoveredAtOnce) {
   const auto r = driveWith({1, 1, 1, 1, 1});
-  EXPECT_EQ(value(driveMetrics(r, r, {true, false, 1.5, 2.5}, 0), "recovery_s"), 0);
+  EXPECT_EQ(value(driveMetrics(r, errorsOf(r), {true, false, 1.5, 2.5}, 0), "recovery_s"), 0);
 }
 
 TEST(DriveMetrics, ACovarianceThatKnowsADirectionExactlySaysNothing) {
