@@ -8,8 +8,9 @@ namespace sidestep {
 
 void DegradeEvent::visit(ParamVisitor& v) {
   v.text("label", label, "of the observations that suffer, or a kind (gps, imu, ...): all of that kind");
-  v.choice("do", action, {"drop", "thin", "delay", "freeze", "bias", "spike", "noise"},
-           "lose, keep every n-th, stamp late, repeat the last value, add a constant, add outliers, add noise");
+  v.choice("do", action, {"drop", "thin", "delay", "freeze", "bias", "spike", "noise", "jump"},
+           "lose, keep every n-th, stamp late, repeat the last value, add a constant, add outliers, add noise; jump: cut "
+           "from_s to to_s out of the whole log and close the gap, as if the robot had been carried");
   v.choice("components", components, {"all", "xy", "theta", "rate"}, "which part of the reading");
   v.number("from_s", from_s, {0, 1e9}, "s", "begins so long after the log's first stamp");
   v.number("to_s", to_s, {0, 1e9}, "s", "and ends");
@@ -65,6 +66,12 @@ void DegradeScript::check() const {
       throw ConfigError("zones." + name + ".polygon: has fewer than three corners");
   for (const auto& name : event_names) {
     const DegradeEvent& e = events.at(name);
+    if (e.action == "jump") {
+      if (!e.label.empty() || !e.zone.empty())
+        throw ConfigError("events." + name + ": jump cuts the whole log; leave out label and zone");
+      if (!(e.from_s < e.to_s && e.to_s < 1e9)) throw ConfigError("events." + name + ": jump needs from_s < to_s");
+      continue;
+    }
     if (e.label.empty()) throw ConfigError("events." + name + ".label: is missing; name the observations that suffer");
     if (e.to_s < e.from_s) throw ConfigError("events." + name + ".to_s: lies before from_s");
     if (e.zone.empty() || zones.contains(e.zone)) continue;

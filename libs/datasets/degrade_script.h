@@ -13,8 +13,8 @@ namespace sidestep {
 
 /// Something that goes wrong with the observations of one label, for a time or in a place.
 struct DegradeEvent {
-  std::string label;                             ///< of the observations; a kind's word ("gps") means all of that kind
-  std::string action = "drop";                   ///< drop, thin, delay, freeze, bias, spike, noise
+  std::string label;                             ///< of the observations; a kind's word ("gps") means all of that kind; none for jump
+  std::string action = "drop";                   ///< drop, thin, delay, freeze, bias, spike, noise, jump
   std::string components = "all";                ///< all, xy, theta, rate
   double from_s = 0, to_s = 1e9;                 ///< after the first stamp of the log; the end is not in it [s]
   std::string zone;                              ///< only there; empty: everywhere

@@ -13,6 +13,7 @@
 
 #include "core/errors.h"
 #include "core/random.h"
+#include "datasets/log_jump.h"
 #include "datasets/log_reader.h"
 #include "datasets/planar_reading.h"
 
@@ -32,6 +33,15 @@ class Event {
   const DegradeEvent& params() const { return event_; }
   const LogDegrader::EventCount& count() const { return count_; }
   bool concerns(const LogEntry& entry) const { return event_.label == entry.label || event_.label == word(entry.kind); }
+  bool jumps() const { return event_.action == "jump"; }
+  double shift_s(double after_s) const { return jumps() && after_s >= event_.to_s ? event_.to_s - event_.from_s : 0; }
+  /// Counts what is cut out, as met and hit.
+  bool jump(double first_s, double logged_s, LogEntry& entry) {
+    if (!jump_) jump_.emplace(first_s + event_.from_s, first_s + event_.to_s);
+    if (jump_->apply(logged_s, entry)) return true;
+    ++count_.met, ++count_.hit;
+    return false;
+  }
   void leave() { held_.clear(); }  ///< freezing begins anew the next time
 
   /// @return false if the entry is lost.
@@ -153,6 +163,7 @@ class Event {
   Random random_;
   LogDegrader::EventCount count_;
   std::map<std::string, std::shared_ptr<mrpt::obs::CObservation>> held_;
+  std::optional<LogJump> jump_;
 };
 
 }  // namespace
@@ -203,17 +214,24 @@ LogDegrader::~LogDegrader() = default;
 
 void LogDegrader::push(const LogEntry& given) {
   if (!impl_->first_s) impl_->first_s = given.time_s;
-  impl_->release(given.time_s);
+  const double first_s = *impl_->first_s, after_s = given.time_s - first_s;
+  double now_s = given.time_s;  // as stamped once what is cut out is gone
+  for (const Event& event : impl_->events) now_s -= event.shift_s(after_s);
+  impl_->release(now_s);
   impl_->track(given);
   LogEntry entry = given;
   for (Event& event : impl_->events) {
+    if (event.jumps()) {
+      if (!event.jump(first_s, given.time_s, entry)) return;
+      continue;
+    }
     if (!event.concerns(entry)) continue;
-    if (!impl_->within(event.params(), given.time_s - *impl_->first_s))
+    if (!impl_->within(event.params(), after_s))
       event.leave();
     else if (!event.apply(entry))
       return;
   }
-  if (entry.time_s > given.time_s)
+  if (entry.time_s > now_s)
     impl_->delayed.emplace(entry.time_s, entry);
   else
     impl_->sink(entry);

@@ -38,12 +38,6 @@ class SimulatedPairs {
   DriveResult& out_;
 };
 
-mrpt::math::TPose2D inMap(const LocalizeConfig& config, const mrpt::math::TPose2D& truth) {
-  if (!config.truth_frame_given) return truth;
-  const mrpt::poses::CPose2D T_map_truth(config.truth_x_m, config.truth_y_m, config.truth_yaw);
-  return (T_map_truth + mrpt::poses::CPose2D(truth)).asTPose();
-}
-
 /// Sums over the streams of a kind; `kind_of` names the kind of a label.
 template <class KindOf>
 void takeNis(const Localizer& localizer, const LocalizeConfig& config, const KindOf& kind_of, DriveResult& out) {
@@ -66,6 +60,12 @@ bool isLost(const LogEntry& e, double time_s, const SignalLoss& loss) {
 }
 
 }  // namespace
+
+mrpt::math::TPose2D truthInMap(const LocalizeConfig& config, const mrpt::math::TPose2D& truth) {
+  if (!config.truth_frame_given) return truth;
+  const mrpt::poses::CPose2D T_map_truth(config.truth_x_m, config.truth_y_m, config.truth_yaw);
+  return (T_map_truth + mrpt::poses::CPose2D(truth)).asTPose();
+}
 
 DriveResult localizeSimulated(const LocalizationScenario& scenario, const LocalizeConfig& config,
                               const SignalLoss& loss, uint64_t world_seed, uint64_t filter_seed) {
@@ -100,7 +100,8 @@ DriveResult localizeSimulated(const LocalizationScenario& scenario, const Locali
   return out;
 }
 
-RecordedDrive readDrive(const std::string& log, const std::string& truth_file, const std::vector<std::string>& labels) {
+RecordedDrive readDrive(const std::string& log, const std::string& truth_file, const std::vector<std::string>& labels,
+                        bool scans) {
   RecordedDrive drive;
   drive.file = log;
   LogReaderOptions options;
@@ -114,7 +115,7 @@ RecordedDrive readDrive(const std::string& log, const std::string& truth_file, c
       if (const auto* p = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(e->observation.get()))
         drive.truth.push_back({e->time_s, {p->pose.mean.x(), p->pose.mean.y(), p->pose.mean.yaw()}, true});
     } else if (e->kind == SensorKind::kOdometry || e->kind == SensorKind::kImu || e->kind == SensorKind::kGps ||
-               e->kind == SensorKind::kBeacons) {
+               e->kind == SensorKind::kBeacons || (scans && e->kind == SensorKind::kLaser)) {
       drive.entries.push_back(std::move(*e));
     }
   }
@@ -123,9 +124,14 @@ RecordedDrive readDrive(const std::string& log, const std::string& truth_file, c
   if (!truth_file.empty()) {
     // Rows of a file are asked for at the log's own times: it is read anew by each run's thread, so kept as poses here.
     const auto truth = GroundTruth::fromFile(truth_file);
-    for (const auto& e : drive.entries)
-      if (e.kind == SensorKind::kOdometry)
-        if (const auto pose = truth->at(e.time_s)) drive.truth.push_back(*pose);
+    uint64_t row = 0;
+    for (const auto& e : drive.entries) {
+      if (e.kind != SensorKind::kOdometry) continue;
+      auto pose = truth->isRowIndexed() ? truth->row(row++) : truth->at(e.time_s);
+      if (!pose) continue;
+      pose->time_s = e.time_s;
+      drive.truth.push_back(*pose);
+    }
   }
   if (drive.truth.empty()) throw DatasetError::missing(log + ": no ground truth to compare with");
   return drive;
@@ -147,7 +153,7 @@ DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& c
       const auto t = truth.at(e.time_s);
       if (!t) continue;
       out.pairs.push_back(
-          {e.time_s - drive.start_s, e.belief.mean, inMap(config, t->pose), e.belief.covariance, t->has_heading});
+          {e.time_s - drive.start_s, e.belief.mean, truthInMap(config, t->pose), e.belief.covariance, t->has_heading});
       out.odometry.push_back(e.odometry);
     }
   };

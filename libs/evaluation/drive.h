@@ -53,11 +53,16 @@ struct RecordedDrive {
 };
 
 /// @param truth_file  empty: the log's own truth
+/// @param scans       keep the laser's scans too
 /// @throws DatasetError if the log or its truth cannot be read whole.
-RecordedDrive readDrive(const std::string& log, const std::string& truth_file, const std::vector<std::string>& labels);
+RecordedDrive readDrive(const std::string& log, const std::string& truth_file, const std::vector<std::string>& labels,
+                        bool scans = false);
 
 /// Localizes a recorded drive; pairs are where there is truth.
 DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& config, const SignalLoss& loss,
                              uint64_t filter_seed);
+
+/// A true pose in the map's frame, as the configuration places the truth's.
+mrpt::math::TPose2D truthInMap(const LocalizeConfig& config, const mrpt::math::TPose2D& truth);
 
 }  // namespace sidestep

@@ -11,7 +11,8 @@
 
 namespace sidestep {
 namespace {
-constexpr size_t kMemorySize = 9;
+constexpr size_t kMemorySize = 8;
+constexpr double kMostLooks = 20000;  // candidates for rivals, at a time
 constexpr double kWide_m = 0.5;  // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
 constexpr double kLostPrior = 0.001;  // weight of what is drawn anew: others must fit much worse to lose to it
@@ -48,11 +49,12 @@ void MclParams::visit(ParamVisitor& v) {
   v.number("lost_below", recovery_below, {0, 1}, "", "they do not: fast average below this part of the slow one");
   v.number("lost_gain", recovery_gain, {0, 1000}, "",
            "and some place fits better than the cloud, by this much in the logarithm of its weight");
-  v.number("lost_pause_s", recovery_pause_s, {0, 1000}, "s", "not more often than this");
+  v.number("lost_pause_s", recovery_pause_s, {0, 1000}, "s", "other places are looked for not more often than this");
+  v.integer("rivals", rivals, {2, 10000}, "other places that are followed along, to tell whether the robot is lost");
 }
 
 Mcl::Mcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel> model, bool global)
-    : ParticleFilter(params.engine, seed), mcl_(params), model_(std::move(model)), global_(global) {
+    : ParticleFilter(params.engine, seed), mcl_(params), model_(std::move(model)), global_(global), rivals_(static_cast<size_t>(params.rivals)) {
   log_likelihood_.resize(static_cast<Eigen::Index>(cloud_.capacity()));
 }
 
@@ -60,6 +62,7 @@ void Mcl::start(const PoseBelief& belief) {
   estimate_.reset();
   ParticleFilter::start(belief);
   memory_ = Memory();
+  rivals_.clear();
   if (!global_) return;
   memory_.anywhere = 1;
   cloud_.resize(cloud_.capacity());
@@ -80,6 +83,7 @@ void Mcl::predict(const MotionStep& motion) {
   wider.turn_var *= mcl_.noise_scale * mcl_.noise_scale;
   ParticleFilter::predict(wider);
   if (motion.still || !std::isfinite(motion.distance_m) || !std::isfinite(motion.turn_rad)) return;
+  rivals_.move(motion);
   memory_.travel += std::abs(motion.distance_m);
   memory_.turn += std::abs(motion.turn_rad);
 }
@@ -97,7 +101,8 @@ Correction Mcl::correctScan(const Measurement& m) {
   ++memory_.scans;
   if (memory_.anywhere > 0) {
     memory_.anywhere = 0;
-    drawFrom(candidates(*m.scan, mcl_.candidates_per_m2, cloud_.size()), 0, cloud_.size());
+    const size_t count = candidateCount(mcl_.candidates_per_m2, cloud_.size(), kMostCandidates);
+    drawFrom(Candidates::draw(*model_, *m.scan, count, random_), 0, cloud_.size());
     cloud_.equalWeights();
     return {};
   }
@@ -155,21 +160,8 @@ double Mcl::temper() const {
   return low;
 }
 
-/// Poses from all over the map, and how the scan fits there. Allocates: at the start, and when the robot may be lost.
-Mcl::Candidates Mcl::candidates(const Scan& scan, double per_m2, size_t least) {
-  const double wanted = std::clamp(per_m2 * model_->freeArea(), static_cast<double>(least), kMostCandidates);
-  const auto total = static_cast<Eigen::Index>(wanted);
-  Candidates c;
-  for (auto* a : {&c.x, &c.y, &c.yaw, &c.fit}) a->resize(total);
-  for (Eigen::Index i = 0; i < total; ++i) {
-    const auto p = model_->drawFree(random_);
-    c.x[i] = p.x;
-    c.y[i] = p.y;
-    c.yaw[i] = p.phi;
-  }
-  model_->logLikelihoods(scan, c.x.data(), c.y.data(), c.yaw.data(), static_cast<size_t>(total), c.fit.data());
-  c.best = c.fit.maxCoeff();
-  return c;
+size_t Mcl::candidateCount(double per_m2, size_t least, double most) const {
+  return std::max(least, static_cast<size_t>(std::min(per_m2 * model_->freeArea(), most)));
 }
 
 /// Sets particles [first, first + count) to draws from the candidates by their fit, with an exponent that leaves some
@@ -211,15 +203,20 @@ void Mcl::watch(const Measurement& m, double fit) {
   const bool first = a.slow == 0;
   a.slow += (first ? 1 : mcl_.average_slow) * (likelihood - a.slow);
   a.fast += (first ? 1 : mcl_.average_fast) * (likelihood - a.fast);
-  a.explained += mcl_.average_fast * (model_->explained(*m.scan, estimate().mean) - a.explained);
+  const auto here = estimate().mean;
+  a.explained += mcl_.average_fast * (model_->explained(*m.scan, here) - a.explained);
+  double fit_here;
+  model_->logLikelihoods(*m.scan, &here.x, &here.y, &here.phi, 1, &fit_here);
+  rivals_.compare(*model_, *m.scan, fit_here, random_);
+  if (m.time_s - a.looked_s < mcl_.recovery_pause_s) return;
+  a.looked_s = m.time_s;
   const bool doubtful = a.fast < mcl_.recovery_below * a.slow || a.explained < kLeastExplained;
-  if (!doubtful) a.rival *= 1 - mcl_.average_fast;
-  if (!doubtful || m.time_s - a.injected_s < mcl_.recovery_pause_s) return;
-  a.injected_s = m.time_s;
   const auto count = static_cast<size_t>(mcl_.recovery_share * static_cast<double>(cloud_.size()));
-  const Candidates places = candidates(*m.scan, mcl_.candidates_per_m2 / 10, std::max<size_t>(count, 1));
-  a.rival = model_->weight() * (places.best - fit);
-  if (a.rival < mcl_.recovery_gain || count == 0) return;
+  const size_t looks = candidateCount(mcl_.candidates_per_m2 / 10, std::max<size_t>(count, 1),
+                                      doubtful ? kMostCandidates : kMostLooks);
+  const Candidates places = Candidates::draw(*model_, *m.scan, looks, random_);
+  rivals_.renew(places, here);
+  if (!doubtful || model_->weight() * (places.best - fit) < mcl_.recovery_gain || count == 0) return;
   makeRoom(count, kLostPrior);
   drawFrom(places, cloud_.size() - count, count);
   estimate_.reset();
@@ -251,16 +248,24 @@ double Mcl::shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) cons
   return share;
 }
 
+Mcl::Signs Mcl::signs() const {
+  const auto here = estimate().mean;
+  return {shareBeyond(here, 1), memory_.explained, model_->weight() * rivals_.advantage(here).value_or(0),
+          memory_.scans, memory_.fast, memory_.slow};
+}
+
 std::optional<double> Mcl::lostProbability() const {
-  const double beyond = std::clamp(shareBeyond(estimate().mean, 1), 0.001, 0.999);
-  const double z = kLost[0] + kLost[1] * std::log(beyond / (1 - beyond)) + kLost[2] * memory_.explained;
+  const Signs s = signs();
+  const double beyond = std::clamp(s.beyond, 0.001, 0.999);
+  const double z = kLost[0] + kLost[1] * std::log(beyond / (1 - beyond)) + kLost[2] * s.explained;
   return 1 / (1 + std::exp(-z));
 }
 
 void Mcl::save(std::vector<double>& out) const {
   ParticleFilter::save(out);
+  rivals_.save(out);
   const auto& a = memory_;
-  for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.injected_s, a.scans, a.rival})
+  for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.scans, a.looked_s})
     out.push_back(v);
 }
 
@@ -268,7 +273,8 @@ void Mcl::restore(const std::vector<double>& state) {
   estimate_.reset();
   ParticleFilter::restore(state);
   const double* p = state.data() + state.size() - kMemorySize;
-  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8]};
+  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]};
+  rivals_.restore(p);
 }
 
 std::unique_ptr<PoseFilter> makeMcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel> model,

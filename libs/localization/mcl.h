@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "localization/particle_filter.h"
+#include "localization/rivals.h"
 #include "localization/scan_model.h"
 
 namespace sidestep {
@@ -28,6 +29,7 @@ struct MclParams {
   double recovery_below = 0.8;
   double recovery_gain = 3;
   double recovery_pause_s = 2;
+  int rivals = 64;
 
   MclParams();
   void visit(ParamVisitor& v);
@@ -51,6 +53,15 @@ class Mcl final : public ParticleFilter {
   /// Of the heaviest mode; the covariance is of all particles about it.
   PoseBelief estimate() const override;
   std::optional<double> lostProbability() const override;
+  /// What that probability rests on.
+  struct Signs {
+    double beyond = 0;     ///< weight of the particles farther than 1 m from the estimate
+    double explained = 0;  ///< share of the beams that end near an obstacle, averaged over the last scans
+    double advantage = 0;  ///< of the best rival, as a logarithm of odds
+    double scans = 0;      ///< used since the start
+    double fast = 0, slow = 0;
+  };
+  Signs signs() const;
   void save(std::vector<double>& out) const override;
   void restore(const std::vector<double>& state) override;
 
@@ -59,11 +70,7 @@ class Mcl final : public ParticleFilter {
   Correction correctScan(const Measurement& m);
   void jitter();
   double temper() const;
-  struct Candidates {
-    Eigen::ArrayXd x, y, yaw, fit;
-    double best = 0;  // fit
-  };
-  Candidates candidates(const Scan& scan, double per_m2, size_t least);
+  size_t candidateCount(double per_m2, size_t least, double most) const;
   void drawFrom(const Candidates& c, size_t first, size_t count);
   void watch(const Measurement& m, double fit);
   double shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) const;
@@ -73,14 +80,14 @@ class Mcl final : public ParticleFilter {
     double travel = 0, turn = 0;  // since the last scan in use
     double slow = 0, fast = 0;    // averages of the beams' mean likelihood
     double explained = 1;         // average share of beams that the map explains
-    double injected_s = 0;
     double scans = 0;
-    double rival = 0;  // how much better the best other place fitted, when last looked for
+    double looked_s = 0;          // when other places were last looked for
   };
   MclParams mcl_;
   std::shared_ptr<const ScanModel> model_;
   bool global_;
   Memory memory_;
+  Rivals rivals_;
   mutable std::optional<PoseBelief> estimate_;  // until something changes
   Eigen::ArrayXd log_likelihood_;
 };

@@ -164,6 +164,55 @@ TEST(LogDegrader, TheSameSeedDoesTheSameAndAnotherEventLeavesItAlone) {
   }
 }
 
+TEST(LogDegrader, AJumpCutsTheLogAndClosesTheGapInTimeAndOdometry) {
+  // Seconds 3 .. 6 are gone and second 7 is stamped 3. The truth jumps from x = 2 to x = 7, the wheels go on from 2.
+  auto in = world(10);
+  for (auto& e : in)
+    if (e.kind == SensorKind::kOdometry) {
+      auto& o = dynamic_cast<mrpt::obs::CObservationOdometry&>(*e.observation);
+      o.hasEncodersInfo = true;
+      o.encoderLeftTicks = static_cast<int32_t>(100 * o.odometry.x());
+    }
+  const auto out = degraded("events: {carried: {do: jump, from_s: 3, to_s: 7}}", in);
+  EXPECT_EQ(seconds(out.of(SensorKind::kOdometry)), (std::vector<double>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(seconds(out.of(SensorKind::kGps)), (std::vector<double>{0.5, 1.5, 2.5, 3.5, 4.5, 5.5}));
+  const double wheels[] = {0, 1, 2, 2, 3, 4}, truth[] = {0, 1, 2, 7, 8, 9};
+  for (size_t i = 0; i < 6; ++i) {
+    const auto o = out.of(SensorKind::kOdometry)[i], t = out.of(SensorKind::kGroundTruth)[i];
+    EXPECT_NEAR(planar(o).x, wheels[i], 1e-12) << i;
+    EXPECT_NEAR(planar(t).x, truth[i], 1e-12) << i;
+    EXPECT_EQ(dynamic_cast<mrpt::obs::CObservationOdometry&>(*o.observation).encoderLeftTicks, 100 * wheels[i]) << i;
+    EXPECT_NEAR(mrpt::Clock::toDouble(o.observation->timestamp), o.time_s, 1e-6);
+  }
+  EXPECT_EQ(planar(in[4 * 7]).x, 7) << "what went in was changed";
+  EXPECT_EQ(out.counts[0].hit, 16u);
+}
+
+TEST(LogDegrader, AJumpTurnsOdometryIntoTheFrameOfItsLastReading) {
+  auto in = world(4);
+  auto& turned = dynamic_cast<mrpt::obs::CObservationOdometry&>(*in[4 * 2].observation);
+  turned.odometry = mrpt::poses::CPose2D(2, 0, M_PI / 2);  // at the first reading after the cut it looks left
+  auto& ahead = dynamic_cast<mrpt::obs::CObservationOdometry&>(*in[4 * 3].observation);
+  ahead.odometry = mrpt::poses::CPose2D(2, 1, M_PI / 2);  // and then goes a metre ahead
+  const auto out = degraded("events: {carried: {do: jump, from_s: 1, to_s: 2}}", in).of(SensorKind::kOdometry);
+  ASSERT_EQ(out.size(), 3u);
+  EXPECT_NEAR(planar(out[2]).x, 1, 1e-12);
+  EXPECT_NEAR(planar(out[2]).y, 0, 1e-12);
+  EXPECT_NEAR(planar(out[2]).theta, 0, 1e-12);
+}
+
+TEST(LogDegrader, TwoJumpsAddUpAndDelaysCrossThem) {
+  const auto out = degraded(
+      "events: {late: {label: gps, do: delay, delay_s: 1.2}, a: {do: jump, from_s: 2, to_s: 4}, b: {do: jump, from_s: "
+      "6, to_s: 7}}",
+      world(9));
+  EXPECT_EQ(seconds(out.of(SensorKind::kOdometry)), (std::vector<double>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(seconds(out.of(SensorKind::kGps)), (std::vector<double>{1.7, 2.7, 3.7, 4.7, 5.7, 6.7}));
+  for (size_t i = 1; i < out.entries.size(); ++i) EXPECT_LE(out.entries[i - 1].time_s, out.entries[i].time_s);
+  for (size_t i = 0; i < 6; ++i)  // each cut costs the metre between the readings beside it
+    EXPECT_NEAR(planar(out.of(SensorKind::kOdometry)[i]).x, i < 2 ? i : i < 4 ? i - 1 : i - 2, 1e-12) << i;
+}
+
 std::string errorOf(const std::string& yaml) {
   try {
     degraded(yaml, world(2));
@@ -179,6 +228,10 @@ TEST(LogDegrader, WhatCannotBeDoneIsRefusedByName) {
             "events.e.zone = rof: no such zone; did you mean 'roof'?");
   EXPECT_EQ(errorOf("zones: {roof: {polygon: [{x: 0, y: 0}, {x: 1, y: 0}]}}"),
             "zones.roof.polygon: has fewer than three corners");
+  EXPECT_EQ(errorOf("events: {e: {do: jump, label: gps, to_s: 5}}"),
+            "events.e: jump cuts the whole log; leave out label and zone");
+  EXPECT_EQ(errorOf("events: {e: {do: jump, from_s: 5, to_s: 5}}"), "events.e: jump needs from_s < to_s");
+  EXPECT_EQ(errorOf("events: {e: {do: jump, from_s: 5}}"), "events.e: jump needs from_s < to_s");
   EXPECT_EQ(errorOf("events: {e: {do: drop}}"), "events.e.label: is missing; name the observations that suffer");
   EXPECT_EQ(errorOf("events: {e: {label: gps, do: bias, components: theta}}"),
             "events.e: bias cannot be done to theta of gps (mrpt::obs::CObservationGPS), which has none");
@@ -186,7 +239,7 @@ TEST(LogDegrader, WhatCannotBeDoneIsRefusedByName) {
             "events.e: odometry cannot lose theta alone; components: all drops the observation");
   EXPECT_EQ(
       errorOf("events: {e: {label: gps, do: dorp}}"),
-      "script.yaml:1: events.e.do = dorp, allowed drop, thin, delay, freeze, bias, spike, noise; did you mean 'drop'?");
+      "script.yaml:1: events.e.do = dorp, allowed drop, thin, delay, freeze, bias, spike, noise, jump; did you mean 'drop'?");
 }
 
 TEST(Zone, KnowsItsInsideOutsideAndItsDents) {
