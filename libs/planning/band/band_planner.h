@@ -7,6 +7,7 @@
 #include "planning/band/band_optimizer.h"
 #include "planning/band/band_start.h"
 #include "planning/band/evasion.h"
+#include "planning/band/field_islands.h"
 #include "planning/band/gap_graph.h"
 #include "planning/band/local_goal.h"
 #include "planning/band/signature.h"
@@ -50,6 +51,7 @@ struct BandPlannerParams {
   SelectionParams selection;
   CheckParams check;
   EvasionParams evasion;
+  FootprintParams footprint;
   HrvoParams hrvo;
 
   void visit(ParamVisitor& v);
@@ -110,6 +112,13 @@ class BandPlanner final : public LocalPlanner {
     Band spare;
   };
 
+  /// A band that waits, lets pass or goes round, before it is optimized.
+  struct TimedBand {
+    Band band;
+    mrpt::math::TPoint2D beside;
+  };
+  static constexpr size_t kTimedMost = 32;
+
   bool answeredAtDoor(const PlanInput& input, PlanOutput& out);
   void look(const PlanInput& input);
   void carryOver(const PlanInput& input);
@@ -120,7 +129,13 @@ class BandPlanner final : public LocalPlanner {
                 const PlanInput& input);
   BandCandidate* freeSlot();
   void optimizeAll(const PlanInput& input);
-  void optimizeOne(const PlanInput& input, size_t index);
+  void optimizeOne(const PlanInput& input, Worker& worker, BandCandidate& c);
+  void examine(Worker& worker, BandCandidate& c);
+  void letPass(const PlanInput& input);
+  void timeWays(const PlanInput& input, double keep_out);
+  void timeWay(std::span<const mrpt::math::TPoint2D> way, const mrpt::math::TPoint2D& beside, double keep_out,
+               const PlanInput& input);
+  bool becomesClear(const PlanInput& input, const TimedBand& timed);
   void tryQuickest(const PlanInput& input, Worker& worker, BandCandidate& c);
   void judge(const PlanInput& input);
   void dropTwins();
@@ -133,20 +148,28 @@ class BandPlanner final : public LocalPlanner {
   void brake(const PlanInput& input, PlanOutput& out);
   void watchOscillation(const PlanInput& input, const BandCandidate& c, PlanOutput& out);
   void explainTo(PlanOutput& out) const;
+  uint64_t classOf(SignatureReader& reader, const Band& band) const;
 
   BandPlannerParams params_;
   ObstacleView view_;
   GapGraph graph_;
+  FieldIslands islands_;
   BandMaker maker_;
   Evasion evasion_;
   Hrvo hrvo_;
   std::optional<mrpt::math::TPoint2D> advice_;  ///< of the HRVO model in this plan [m/s, map axes]
   std::vector<Worker> workers_;
   std::vector<BandCandidate> pool_;
+  std::vector<TimedBand> timed_;
+  size_t timed_count_ = 0;
+  std::vector<mrpt::math::TPoint2D> bow_;
+  BandCandidate passing_;
+  double let_pass_again_ = -1e9;  ///< when it is worth trying again
   std::vector<size_t> order_;
   std::vector<TrajectoryPoint> driven_;
   LocalGoal goal_;
   GoalFrame frame_;
+  double reach_m_ = 0;  ///< farthest that the view is asked
   BandProblem problem_;
   Band fresh_, checked_;
   BandEnds checked_ends_;

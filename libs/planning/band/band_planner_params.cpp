@@ -27,6 +27,12 @@ MovingView BandViewParams::movingView() const {
   return out;
 }
 
+void FootprintParams::visit(ParamVisitor& v) {
+  v.number("length_m", length_m, {0, 10}, "m", "of the rectangle; 0: the robot is a disc");
+  v.number("width_m", width_m, {0, 10}, "m", "of the rectangle");
+  v.number("ahead_m", ahead_m, {-5, 5}, "m", "of the rectangle's middle, from the middle between the wheels");
+}
+
 void SelectionParams::visit(ParamVisitor& v) {
   v.number("hysteresis", hysteresis, {0, 0.9}, "-", "share by which a class must be cheaper than the last choice");
   v.number("clearance_share", clearance_share, {0, 10}, "-", "share of the clearance cost that counts in the choice");
@@ -47,6 +53,7 @@ void BandPlannerParams::visit(ParamVisitor& v) {
   v.section("check", "what must be clear before a command leaves", [this](ParamVisitor& s) { check.visit(s); });
   v.section("evasion", "what is done when somebody comes and no band is clear",
             [this](ParamVisitor& s) { evasion.visit(s); });
+  v.section("footprint", "a robot longer than wide", [this](ParamVisitor& s) { footprint.visit(s); });
   v.section("hrvo", "the HRVO model of pteb", [this](ParamVisitor& s) { hrvo.visit(s); });
 }
 

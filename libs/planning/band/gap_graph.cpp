@@ -26,7 +26,7 @@ void ExplorationParams::visit(ParamVisitor& v) {
 const std::vector<GapPath>& GapGraph::search(const Query& query) {
   layColumns(query);
   blockStill(query);
-  blockMoving(query);
+  if (!query.still_only) blockMoving(query);
   blockField(query);
   sortBlocked();
   cutGaps();

@@ -39,9 +39,10 @@ class GapGraph {
   struct Query {
     GoalFrame frame;
     const ObstacleView* obstacles = nullptr;
-    double keep_out = 0.35;  ///< least distance of the robot's centre to an obstacle's edge [m]
-    double wished = 0.8;     ///< wished one [m]
-    SpeedProfile profile;    ///< when the robot gets to a column
+    double keep_out = 0.35;   ///< least distance of the robot's centre to an obstacle's edge [m]
+    double wished = 0.8;      ///< wished one [m]
+    SpeedProfile profile;     ///< when the robot gets to a column
+    bool still_only = false;  ///< as if nothing moved
   };
 
   explicit GapGraph(const ExplorationParams& params) : params_(params) {}
