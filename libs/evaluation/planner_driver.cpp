@@ -16,7 +16,7 @@ class PlannerDriver final : public Driver {
         limits_(limits),
         tracking_(params.tracking),
         predictor_(params.tracking.prediction),
-        route_(params.route, limits.radius_m),
+        route_(params.path, limits.radius_m),
         watch_(std::move(watch)) {}
 
   mrpt::math::TTwist2D drive(const DriverView& view) override {
@@ -69,7 +69,7 @@ void TrackingParams::visit(ParamVisitor& v) {
 void DriverParams::visit(ParamVisitor& v) {
   planners.visit(v);
   v.section("tracking", "what planners are told of those who move", [this](ParamVisitor& s) { tracking.visit(s); });
-  v.section("route", "the global path that planners are given", [this](ParamVisitor& s) { route.visit(s); });
+  v.section("path", "the global path that planners are given", [this](ParamVisitor& s) { path.visit(s); });
 }
 
 std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,

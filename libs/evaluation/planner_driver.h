@@ -25,7 +25,7 @@ struct TrackingParams {
 struct DriverParams {
   LocalPlannerParams planners;
   TrackingParams tracking;
-  GlobalRouteParams route;
+  GlobalRouteParams path;
 
   DriverParams() = default;
   // planners alone are all that most worlds say, hence not explicit

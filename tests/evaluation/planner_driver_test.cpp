@@ -103,7 +103,7 @@ double clearanceOf(const std::vector<mrpt::math::TPose2D>& path, const mrpt::mat
 TEST(PlannerDriver, ARouteLeadsAroundWallsAndThoseWhoStandAndIsPlannedAnewForAnotherGoal) {
   Told told;
   DriverParams params;
-  params.route.planner = "astar";
+  params.path.planner = "astar";
   const auto driver = makePlannerDriver(std::make_unique<Listener>(told), {}, params);
   // a room with a wall across the straight way, open above y = 2
   const std::vector<Segment> walls = {
@@ -134,7 +134,7 @@ TEST(PlannerDriver, ARouteLeadsAroundWallsAndThoseWhoStandAndIsPlannedAnewForAno
 TEST(PlannerDriver, WithoutWallsThereIsNoPath) {
   Told told;
   DriverParams params;
-  params.route.planner = "astar";
+  params.path.planner = "astar";
   makePlannerDriver(std::make_unique<Listener>(told), {}, params)->drive(viewAt(0, {}, {}, {}));
   EXPECT_TRUE(told.path.empty());
 }

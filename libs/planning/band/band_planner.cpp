@@ -13,6 +13,7 @@ namespace {
 
 using Status = PlanOutput::Status;
 constexpr double kBeside_m = 3;       ///< of the plane around start and goal, beyond the graph's reach
+constexpr double kStanding = 0.05;    ///< m/s; slower than that the HRVO model stands
 constexpr double kContactCost = 1e3;  ///< of a band that touches something; later is cheaper
 
 bool finite(const PlanInput& in) {
@@ -32,7 +33,7 @@ bool often(double (&times)[4], double now, double window) {
 }  // namespace
 
 BandPlanner::BandPlanner(const BandPlannerParams& params)
-    : params_(params), graph_(params.exploration), hrvo_(params.hrvo) {
+    : params_(params), graph_(params.exploration), evasion_(params.evasion), hrvo_(params.hrvo) {
   const auto n = static_cast<size_t>(params.exploration.classes_max);
   workers_.assign(n, Worker(params));
   pool_.resize(n);
@@ -71,6 +72,7 @@ void BandPlanner::plan(const PlanInput& input, PlanOutput& out) {
   out.reason.clear();
   if (answeredAtDoor(input, out)) return;
   look(input);
+  advice_ = params_.view.heading_of_hrvo ? hrvoVelocity(input) : std::nullopt;
   carryOver(input);
   explore(input);
   optimizeAll(input);
@@ -205,11 +207,9 @@ void BandPlanner::tryQuickest(const PlanInput& input, Worker& worker, BandCandid
 
 /// (2.40), (4.10): what each band costs.
 void BandPlanner::judge(const PlanInput& input) {
-  const auto wanted = params_.view.heading_of_hrvo ? hrvoHeading(input) : std::nullopt;
   for (auto& c : pool_) {
     if (!c.alive) continue;
-    const double theta_p = std::atan2(c.beside.y - input.pose.y, c.beside.x - input.pose.x);  // (4.8)
-    c.heading = wanted ? params_.selection.delta_hrvo * std::abs(std::remainder(*wanted - theta_p, 2 * M_PI)) : 0;
+    c.heading = params_.selection.delta_hrvo * angleToAdvice(input, c);
     c.total = c.heading;
     for (double share : c.shares) c.total += share;
     c.total -= (1 - params_.selection.clearance_share) * c.shares[static_cast<size_t>(BandTerm::kClearance)];
@@ -237,16 +237,33 @@ void BandPlanner::dropTwins() {
     }
 }
 
-/// (4.7): the direction of the velocity that the HRVO model would take.
-std::optional<double> BandPlanner::hrvoHeading(const PlanInput& input) {
+/// (2.29): the velocity that the HRVO model would take on its way to the goal, or to a point ahead on the path.
+std::optional<mrpt::math::TPoint2D> BandPlanner::hrvoVelocity(const PlanInput& input) {
+  constexpr double kAhead_m = 2;
   const mrpt::math::TPoint2D at(input.pose.x, input.pose.y);
+  mrpt::math::TPoint2D target(goal_.pose.x, goal_.pose.y);
+  for (auto p = goal_.way.rbegin(); p != goal_.way.rend() && (*p - at).norm() > kAhead_m; ++p) target = *p;
   const double c = std::cos(input.pose.phi), s = std::sin(input.pose.phi);
   hrvo_.begin({c * input.twist.vx, s * input.twist.vx}, input.limits.radius_m, input.period_s);
   for (const auto& o : input.moving) hrvo_.disc(hrvo_.view(o, at));
-  const double d = std::max(frame_.length, 1e-6), v = input.limits.v_max;
-  const auto answer = hrvo_.solve({v * (goal_.pose.x - at.x) / d, v * (goal_.pose.y - at.y) / d}, v);  // (2.30)
-  if (std::hypot(answer.velocity.x, answer.velocity.y) < 0.05) return std::nullopt;
-  return std::atan2(answer.velocity.y, answer.velocity.x);
+  const double v = input.limits.v_max;
+  const auto preferred = (target - at) * (v / std::max((target - at).norm(), 1e-6));  // (2.30)
+  return hrvo_.solve(preferred, v).velocity;
+}
+
+/// (4.9) with (4.7) and (4.8); 0 where the model would stand.
+double BandPlanner::angleToAdvice(const PlanInput& input, const BandCandidate& c) const {
+  if (!advice_ || std::hypot(advice_->x, advice_->y) < kStanding) return 0;
+  const double theta_p = std::atan2(c.beside.y - input.pose.y, c.beside.x - input.pose.x);
+  return std::abs(std::remainder(std::atan2(advice_->y, advice_->x) - theta_p, 2 * M_PI));
+}
+
+/// The same curve, no faster than the model would go in the direction in which the robot looks.
+mrpt::math::TTwist2D BandPlanner::slowedByAdvice(const PlanInput& input, const TrajectorySpeed& wanted) const {
+  if (!advice_ || !params_.selection.hrvo_speed || wanted.v <= 0) return {wanted.v, 0, wanted.w};
+  const double along = advice_->x * std::cos(input.pose.phi) + advice_->y * std::sin(input.pose.phi);
+  const double v = std::min(wanted.v, std::max(along, 0.0));
+  return {v, 0, wanted.w * (wanted.v > kStanding ? v / wanted.v : 1)};
 }
 
 /// (2.39): the cheapest band, the last choice favoured, of those whose beginning is clear.
@@ -275,6 +292,8 @@ void BandPlanner::choose(const PlanInput& input, PlanOutput& out) {
       out.reason = "oscillation: the class changed four times in a short while; keeping this one";
       steady_until_ = input.time_s + params_.selection.oscillation_s;
     }
+    const bool soon = !c.whole.clear && c.whole.obstacle >= 0 && c.whole.contact_s < params_.evasion.before_s;
+    if (soon && evade(input, true, out)) return;
     follow(input, c, out);
     return;
   }
@@ -284,13 +303,15 @@ void BandPlanner::choose(const PlanInput& input, PlanOutput& out) {
     out.reason = "contact with ";
     out.reason += first.obstacle >= 0 ? "obstacle " + std::to_string(first.obstacle) : std::string("something static");
     out.reason += " in " + shortestNumber(std::round(first.contact_s * 100) / 100) + " s on every band";
+    if (evade(input, false, out)) return;
   }
   brake(input, out);
 }
 
 void BandPlanner::follow(const PlanInput& input, BandCandidate& c, PlanOutput& out) {
   const auto speed = speedAt(c.band, c.ends, input.period_s);
-  out.command = allowedCommand(speed.v, speed.w, input.twist, input.limits, input.period_s);
+  const auto slowed = slowedByAdvice(input, speed);
+  out.command = allowedCommand(slowed.vx, slowed.omega, input.twist, input.limits, input.period_s);
   out.status = Status::kMoving;
   for (size_t k = 0; k < c.band.size(); ++k) {
     const auto& p = c.band[k];
@@ -315,6 +336,19 @@ void BandPlanner::watchOscillation(const PlanInput& input, const BandCandidate&,
     if (out.reason.empty()) out.reason = "oscillation: the turning direction changed four times in a short while";
     steady_until_ = input.time_s + params_.selection.oscillation_s;
   }
+}
+
+/// Out of the way of somebody who would walk into a robot that stands; false if standing is as good.
+bool BandPlanner::evade(const PlanInput& input, bool only_if_clear, PlanOutput& out) {
+  const Evasion::Answer stand = evasion_.stand(input, view_);
+  if (stand.clear() && !only_if_clear) return false;
+  const Evasion::Answer best = evasion_.best(input, view_, {goal_.pose.x, goal_.pose.y});
+  if (only_if_clear ? !best.clear() : !best.clear() && best.contact_s < stand.contact_s + 0.2) return false;
+  out.command = allowedCommand(best.command.vx, best.command.omega, input.twist, input.limits, input.period_s);
+  out.status = Status::kMoving;
+  out.trajectory = evasion_.trajectory();
+  out.reason += out.reason.empty() ? "evades somebody" : "; evades";
+  return true;
 }
 
 /// Slows down on the curve of the last band that was clear.

@@ -6,6 +6,7 @@
 
 #include "planning/band/band_optimizer.h"
 #include "planning/band/band_start.h"
+#include "planning/band/evasion.h"
 #include "planning/band/field_islands.h"
 #include "planning/band/gap_graph.h"
 #include "planning/band/local_goal.h"
@@ -32,7 +33,8 @@ struct BandViewParams {
 struct SelectionParams {
   double hysteresis = 0.1;          ///< share by which another class must be cheaper than the last one
   double clearance_share = 0.05;    ///< of the band's clearance cost that counts in the choice (2.40)
-  double delta_hrvo = 0.5;          ///< of (4.10), table 4.4
+  double delta_hrvo = 15;           ///< of (4.10); table 4.4 has 0.5, for costs of another size
+  bool hrvo_speed = true;           ///< PTEB: no faster than the HRVO model along the robot's own heading
   double goal_tolerance_m = 0.1;    ///< the goal is reached
   double goal_tolerance_rad = 0.1;  ///< where its heading matters
   double horizon_m = 8;             ///< of a band along a global path
@@ -48,6 +50,7 @@ struct BandPlannerParams {
   BandViewParams view;
   SelectionParams selection;
   CheckParams check;
+  EvasionParams evasion;
   FootprintParams footprint;
   HrvoParams hrvo;
 
@@ -136,9 +139,12 @@ class BandPlanner final : public LocalPlanner {
   void tryQuickest(const PlanInput& input, Worker& worker, BandCandidate& c);
   void judge(const PlanInput& input);
   void dropTwins();
-  std::optional<double> hrvoHeading(const PlanInput& input);
+  std::optional<mrpt::math::TPoint2D> hrvoVelocity(const PlanInput& input);
+  double angleToAdvice(const PlanInput& input, const BandCandidate& c) const;
+  mrpt::math::TTwist2D slowedByAdvice(const PlanInput& input, const TrajectorySpeed& wanted) const;
   void choose(const PlanInput& input, PlanOutput& out);
   void follow(const PlanInput& input, BandCandidate& c, PlanOutput& out);
+  bool evade(const PlanInput& input, bool only_if_clear, PlanOutput& out);
   void brake(const PlanInput& input, PlanOutput& out);
   void watchOscillation(const PlanInput& input, const BandCandidate& c, PlanOutput& out);
   void explainTo(PlanOutput& out) const;
@@ -149,7 +155,9 @@ class BandPlanner final : public LocalPlanner {
   GapGraph graph_;
   FieldIslands islands_;
   BandMaker maker_;
+  Evasion evasion_;
   Hrvo hrvo_;
+  std::optional<mrpt::math::TPoint2D> advice_;  ///< of the HRVO model in this plan [m/s, map axes]
   std::vector<Worker> workers_;
   std::vector<BandCandidate> pool_;
   std::vector<TimedBand> timed_;
