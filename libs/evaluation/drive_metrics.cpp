@@ -66,6 +66,7 @@ LossMetrics lossMetrics(const std::vector<PosePair>& pairs, const DriveErrors& t
   const double ordinary = ordinaryError(twin, settle_s);
   ErrorAt twin_error(twin);
   Mean mean;
+  const bool has_twin = !twin.time_s.empty();
   bool recovered = false, first = true;
   for (const auto& p : pairs) {
     const double error = errorOf(p), without = twin_error(p.time_s);
@@ -74,7 +75,7 @@ LossMetrics lossMetrics(const std::vector<PosePair>& pairs, const DriveErrors& t
       m.at_end = error;
       m.added = error - without;
     }
-    if (p.time_s < loss.to_s || recovered) continue;
+    if (p.time_s < loss.to_s || recovered || !has_twin) continue;
     m.recovery_s = p.time_s - loss.to_s;
     recovered = error <= std::max(ordinary, without);
     if (first && recovered) m.recovery_s = 0;
@@ -168,6 +169,16 @@ std::vector<double> driveMetrics(const DriveResult& result, const DriveErrors& t
   const LossMetrics lost = lossMetrics(result.pairs, twin, loss, settle_s);
   out.insert(out.end(), {lost.mean, lost.at_end, lost.added, lost.recovery_s, lost.recovered});
   return out;
+}
+
+void layOntoTruthAt(double time_s, DriveResult& result) {
+  const PosePair* at = nullptr;
+  for (const auto& p : result.pairs)
+    if (p.time_s < time_s || at == nullptr) at = &p;
+  if (at == nullptr || !at->has_heading) return result.pairs.clear();
+  const mrpt::math::TPose2D T = at->truth + (mrpt::math::TPose2D() - at->estimate);
+  for (auto& p : result.pairs) p.estimate = T + p.estimate;
+  result.aligned = true;
 }
 
 void align(DriveResult& result, const LocalizeConfig& config) {

@@ -22,6 +22,7 @@ namespace sidestep {
 ///   recovery_s             from then until the error is an ordinary one again: at most the 95 % quantile of the twin's
 ///                          errors, or the twin's own at that time; until the end of the drive if it never is
 ///   recovered              1 if it ever is, else 0
+/// Dead reckoning has no twin: of it the last three are NaN.
 const std::vector<std::string>& driveMetricNames();
 
 /// Errors of a drive, by time.
@@ -35,6 +36,10 @@ DriveErrors errorsOf(const DriveResult& result);
 /// @param settle_s  the twin's errors before this time are not taken as ordinary ones [s]
 std::vector<double> driveMetrics(const DriveResult& result, const DriveErrors& twin, const SignalLoss& loss,
                                  double settle_s);
+
+/// Moves the estimates so that the last one before `time_s` is the truth: dead reckoning from a known pose. Nothing is
+/// left where the truth has no heading.
+void layOntoTruthAt(double time_s, DriveResult& result);
 
 /// The transform from estimate to truth that `config.align` asks for, as sidestep-localize takes it, applied to the
 /// estimates. Where both frames are known nothing is moved.

@@ -48,10 +48,13 @@ std::vector<CellConsistency> consistencyOf(const std::vector<SummaryLine>& lines
 std::string consistencyCsv(const std::vector<CellConsistency>& cells) {
   std::string out = "scenario,algorithm,quantity,n,mean,ci_low,ci_high,share_in_band,sd_factor,verdict\n";
   for (const auto& c : cells) {
-    out += c.scenario + "," + c.algorithm_name + "," + c.quantity + "," + std::to_string(c.n);
-    for (const double v : {c.mean, c.ci_low, c.ci_high, c.share_in_band, c.sd_factor})
-      out += "," + (std::isfinite(v) ? shortestNumber(v) : std::string());
-    out += "," + c.verdict + "\n";
+    for (const auto& text : {c.scenario, c.algorithm_name, c.quantity}) out += text + ",";
+    out += std::to_string(c.n) + ",";
+    for (const double v : {c.mean, c.ci_low, c.ci_high, c.share_in_band, c.sd_factor}) {
+      if (std::isfinite(v)) out += shortestNumber(v);
+      out += ',';
+    }
+    out += c.verdict + "\n";
   }
   return out;
 }

@@ -79,10 +79,14 @@ std::vector<QuantileLine> quantilesOfRuns(const Study& study, const std::vector<
 std::string quantilesCsv(const std::vector<QuantileLine>& lines) {
   std::string out = "scenario,algorithm,metric,n,min,q05,q25,median,q75,q95,max,median_low,median_high\n";
   for (const auto& l : lines) {
-    out += l.scenario + "," + l.algorithm_name + "," + l.metric + "," + std::to_string(l.n);
+    for (const auto& text : {l.scenario, l.algorithm_name, l.metric}) out += text + ",";
+    out += std::to_string(l.n);
     std::vector<double> numbers(l.at.begin(), l.at.end());
     numbers.insert(numbers.end(), {l.median_low, l.median_high});
-    for (const double v : numbers) out += "," + (std::isfinite(v) ? shortestNumber(v) : std::string());
+    for (const double v : numbers) {
+      out += ',';
+      if (std::isfinite(v)) out += shortestNumber(v);
+    }
     out += '\n';
   }
   return out;

@@ -20,6 +20,7 @@ constexpr double kLeastVariance = 1e-12;  // of a measurement said to be exact
 constexpr double kFarthest_m = 1e8;       // what is farther out is no measurement on this planet
 constexpr double kMostTurn = 1e6;         // rad
 constexpr double kFewest = 10;            // effective particles that must explain a measurement
+constexpr double kExpected = 0.95;        // share of good measurements that choose among the particles
 
 bool sane(const MotionStep& s) {
   return s.dt_s >= 0 && s.dt_s < 1e9 && std::abs(s.distance_m) < kFarthest_m && std::abs(s.turn_rad) < kMostTurn &&
@@ -70,7 +71,10 @@ void PfParams::visit(ParamVisitor& v) {
 
 ParticleFilter::ParticleFilter(const PfParams& params, uint64_t seed)
     : params_(params), random_(seed), scheme_(resamplingScheme(params.resampling.scheme)) {
-  for (int dof = 1; dof <= 3; ++dof) gate_[static_cast<size_t>(dof)] = chiSquareQuantile(params.gate_probability, dof);
+  for (int dof = 1; dof <= 3; ++dof) {
+    gate_[static_cast<size_t>(dof)] = chiSquareQuantile(params.gate_probability, dof);
+    unexpected_[static_cast<size_t>(dof)] = chiSquareQuantile(kExpected, dof);
+  }
   const auto& r = params.resampling;
   const auto most = static_cast<size_t>(std::max(params.particles, r.kld ? std::max(r.kld_min, r.kld_max) : 0));
   cloud_.reserve(most);
@@ -296,7 +300,8 @@ Correction ParticleFilter::correctPose(const Measurement& m) {
       return result;
     }
     patience_.accepted(m);
-    if (!(mean * mean > kFewest * squares)) {
+    const bool unexpected = result.nis_single > unexpected_[static_cast<size_t>(size)] && m.kind != Kind::kRange;
+    if (unexpected || !(mean * mean > kFewest * squares)) {
       moveTowards(m, S, R);
       return result;
     }

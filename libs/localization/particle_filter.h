@@ -47,7 +47,9 @@ struct PfParams {
 /// exp(-EN^0.4 / 2) with EN the length of the innovation (algorithm 3, line 18), blind to R.
 ///
 /// A measurement much sharper than the cloud, which fewer than ten effective particles explain, moves all towards it
-/// (stochastic ensemble Kalman update, Evensen 1994) instead of choosing among them. Measurements of a kind
+/// (stochastic ensemble Kalman update, Evensen 1994) instead of choosing among them; so does a fix or heading beyond the
+/// 95 % quantile of what the cloud expects of one by itself: where the model is a little wrong, choosing again and again
+/// at the cloud's edge would leave a few particles, all sure of the wrong pose. Measurements of a kind
 /// refused for `recovery_patience_s` draw a share of the particles anew from the measurement; what comes next decides
 /// between old and new.
 ///
@@ -112,7 +114,7 @@ class ParticleFilter : public PoseFilter {
   auto row(int k) { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
 
   ResamplingScheme scheme_;
-  std::array<double, 4> gate_{};  // NIS bound by degrees of freedom
+  std::array<double, 4> gate_{}, unexpected_{};  // NIS bounds by degrees of freedom
   Resampler resampler_;
   CellCounter cells_;
   std::vector<uint32_t> indices_;

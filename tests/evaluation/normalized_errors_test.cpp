@@ -44,10 +44,12 @@ TEST(NormalizedErrors, IndependentOnesCountInFull) {
 }
 
 TEST(NormalizedErrors, CorrelatedOnesCountLess) {
-  // rho^2 = exp(-2 l / 10): tau = 1 + 2 / (e^0.2 - 1) = 10.03, so that 400 are worth 40.
+  // rho^2 = exp(-2 l / 10): tau = 1 + 2 / (e^0.2 - 1) = 10.03, so that 400 are worth 40. The noise of C(l) counts as
+  // correlation, which makes it some fewer: on the cautious side.
   double sum = 0;
   for (uint64_t seed = 0; seed < 100; ++seed) sum += correlated(seed, 400, 10, 1).effectiveCount();
-  EXPECT_NEAR(sum / 100, 40, 8);
+  EXPECT_GT(sum / 100, 25);
+  EXPECT_LT(sum / 100, 42);
 }
 
 TEST(NormalizedErrors, AnErrorThatStaysIsWorthOneOrTwo) {
