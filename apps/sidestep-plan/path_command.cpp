@@ -24,6 +24,8 @@ void addPathCommand(CLI::App& app, Work& work) {
       ->check(CLI::IsMember({"se2", "dubins", "reeds-shepp"}))
       ->type_name("NAME");
   c->add_option("--clearance", o->clearance_m, "between robot centre and obstacles [m]")->type_name("M");
+  c->add_option("--footprint", o->footprint, "corners of the robot in its base frame; it may then turn anywhere")
+      ->type_name("x,y,x,y,...");
   c->add_option("--resolution", o->resolution_m, "of a plain image: side of a pixel [m]")->type_name("M");
   c->add_option("--time", o->time_s, "allowed for a path of OMPL's planners [s]")->type_name("S");
   c->add_flag("--nearest", o->nearest, "move start and goal to the nearest free cell if they are not free");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sidestep-plan/path_config.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -41,6 +42,28 @@ mrpt::math::TPose2D toPose(const std::string& option, const std::string& text) {
   }
   if (words.size() != 2 && words.size() != 3) throw ConfigError(option + " " + text + ": give numbers x,y,deg");
   return {values[0], values[1], values[2] * M_PI / 180};
+}
+
+/// Corners x,y,x,y,... of a robot's outline.
+Table toFootprint(const std::string& text) {
+  const auto words = split(text);
+  Table out;
+  for (size_t i = 0; i + 1 < words.size(); i += 2) {
+    const auto x = toNumber(words[i]), y = toNumber(words[i + 1]);
+    if (!x || !y) break;
+    out.push_back({*x, *y});
+  }
+  if (words.size() < 6 || out.size() * 2 != words.size())
+    throw ConfigError("--footprint " + text + ": give the corners x,y,x,y,x,y of three or more");
+  return out;
+}
+
+/// Room for the whole outline, whichever way the robot looks: the distance of its farthest corner.
+void widenForFootprint(PathConfig& c) {
+  if (c.footprint.empty()) return;
+  if (c.footprint.size() < 3) throw ConfigError("footprint: has fewer than three corners");
+  for (const auto& corner : c.footprint)
+    c.planning.clearance_m = std::max(c.planning.clearance_m, std::hypot(corner[0], corner[1]));
 }
 
 /// Which column is which, by name.
@@ -89,6 +112,8 @@ std::vector<PathPair> readPairsFile(const std::string& file) {
 void PathConfig::visit(ParamVisitor& v) {
   v.choice("planner", planner, globalPlanners(), "of the path");
   v.flag("smooth", smooth, "round the path off (not arcs)");
+  v.table("footprint", {"x", "y"}, footprint,
+          "corners of the robot in its base frame; then the clearance is at least what its farthest corner needs");
   v.number("nearest_within_m", nearest_within_m, {0, 1000}, "m",
            "how far start and goal may be moved if that is asked for");
   v.section("map", "what some map files do not say", [this](ParamVisitor& w) { map.visit(w); });
@@ -108,6 +133,8 @@ PathConfig effectivePathConfig(const PathOptions& o) {
   if (o.time_s) c.planning.sampling.time_s = *o.time_s;
   if (o.seed) c.planning.sampling.seed = *o.seed;
   if (o.smooth) c.smooth = true;
+  if (!o.footprint.empty()) c.footprint = toFootprint(o.footprint);
+  widenForFootprint(c);
   return c;
 }
 

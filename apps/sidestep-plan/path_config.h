@@ -18,6 +18,7 @@ namespace sidestep {
 struct PathConfig {
   std::string planner = "astar";
   bool smooth = false;
+  Table footprint;              ///< x, y of its corners in the base frame [m]; empty: planning.clearance_m says it all
   double nearest_within_m = 5;  ///< how far start and goal may be moved when that is asked for
   MapReadParams map;
   ObstacleParams obstacles;
@@ -30,7 +31,7 @@ struct PathConfig {
 
 /// What the command line of `sidestep-plan path` says.
 struct PathOptions {
-  std::string map, start, goal, pairs_file, config_file, output = "sidestep-plan-out", planner, space;
+  std::string map, start, goal, footprint, pairs_file, config_file, output = "sidestep-plan-out", planner, space;
   std::optional<double> clearance_m, resolution_m, time_s;
   std::optional<int> seed;
   bool all = false, nearest = false, smooth = false, overwrite = false, quiet = false, no_picture = false;

@@ -85,7 +85,7 @@ class Run {
   std::vector<std::string> planners() const {
     if (!options_.all) return {config_.planner};
     auto out = globalPlanners();
-    if (config_.planning.sampling.space == "dubins") std::erase(out, "prmstar");  // its roadmap knows no directions
+    std::erase_if(out, [this](const auto& word) { return !refusesSpace(word, config_.planning.sampling.space).empty(); });
     return out;
   }
   void moveEnds();
@@ -251,6 +251,10 @@ void Run::complain() const {
 ExitCode Run::go() {
   folder_->writeConfiguration([this](ParamVisitor& v) { const_cast<PathConfig&>(config_).visit(v); });
   const auto names = planners();
+  for (const auto& word : globalPlanners())
+    if (options_.all && std::find(names.begin(), names.end(), word) == names.end())
+      std::fprintf(stderr, "sidestep-plan: left out: %s\n",
+                   refusesSpace(word, config_.planning.sampling.space).c_str());
   const bool batch = !options_.pairs_file.empty();
   {
     ProgressBar bar("planning", options_.quiet);

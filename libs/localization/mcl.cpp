@@ -11,11 +11,13 @@
 
 namespace sidestep {
 namespace {
-constexpr size_t kMemorySize = 8;
+constexpr size_t kMemorySize = 9;
 constexpr double kMostLooks = 20000;  // candidates for rivals, at a time
 constexpr double kWide_m = 0.5;  // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
-constexpr double kLostPrior = 0.001;  // weight of what is drawn anew: others must fit much worse to lose to it
+constexpr double kHere_m = 0.5;       // particles nearer than this stand for the estimate
+constexpr double kNewView_m = 0.5, kNewView = 0.5;  // way [m] or turn [rad] after which a view says all anew
+constexpr double kLostPrior = 0.1;  // weight of what is drawn anew
 /// Logistic regression of "off by more than 1 m" on the log-odds of the particles that are farther than that from the
 /// estimate, and the share of beams that the map explains; on three logs (doc/laser-localization.md says how).
 constexpr double kLost[3] = {5.9, 0.38, -7.1};
@@ -97,6 +99,7 @@ Correction Mcl::correctScan(const Measurement& m) {
   if (!m.scan || m.scan->size() == 0) return {Correction::Reason::kNotFinite, 0, 0};
   const bool moved = memory_.travel >= mcl_.min_travel_m || memory_.turn >= mcl_.min_turn;
   if (!moved && memory_.scans > 0) return {Correction::Reason::kNothingNew, 0, 0};
+  const double news = std::min(1.0, memory_.travel / kNewView_m + memory_.turn / kNewView);
   memory_.travel = memory_.turn = 0;
   ++memory_.scans;
   if (memory_.anywhere > 0) {
@@ -115,7 +118,7 @@ Correction Mcl::correctScan(const Measurement& m) {
   const double alpha = temper();
   likelihoods() = (alpha * (l - l.maxCoeff())).max(-700.0).exp();
   multiplyWeights(0);
-  watch(m, fit);
+  watch(m, fit, news);
   if (params_.resampling.each_step || degenerate()) resample();
   estimate_.reset();
   return {};
@@ -194,10 +197,24 @@ void Mcl::drawFrom(const Candidates& c, size_t first, size_t count) {
   }
 }
 
-/// Augmented MCL (Thrun, Burgard & Fox 2005, table 8.3), with draws that fit the scan instead of draws from anywhere;
-/// and only where some place fits better than where the robot is thought to be. If none does, the map is at fault.
-/// @param fit  mean log-likelihood of the scan over the cloud
-void Mcl::watch(const Measurement& m, double fit) {
+/// How the scan goes with the estimate, or with a particle beside it that fits it better.
+ScanModel::Judgement Mcl::judgeHere(const mrpt::math::TPose2D& here, const Scan& scan) const {
+  Eigen::Index best = -1;
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(cloud_.size()); ++i)
+    if (std::abs(cloud_.x[i] - here.x) < kHere_m && std::abs(cloud_.y[i] - here.y) < kHere_m &&
+        (best < 0 || log_likelihood_[i] > log_likelihood_[best]))
+      best = i;
+  const auto mean = model_->judge(scan, here);
+  if (best < 0) return mean;
+  const auto other = model_->judge(scan, {cloud_.x[best], cloud_.y[best], cloud_.yaw[best]});
+  return other.fit > mean.fit ? other : mean;
+}
+
+/// Is there a place that fits better, scan after scan? Then a share of the particles is drawn anew from there, as in
+/// augmented MCL (Thrun, Burgard & Fox 2005, table 8.3), and what comes next decides. If none does, the map is at fault.
+/// @param fit   mean log-likelihood of the scan over the cloud
+/// @param news  how much of the view is new, 0 .. 1
+void Mcl::watch(const Measurement& m, double fit, double news) {
   auto& a = memory_;
   const double likelihood = std::exp(fit / static_cast<double>(m.scan->size()));
   const bool first = a.slow == 0;
@@ -205,20 +222,27 @@ void Mcl::watch(const Measurement& m, double fit) {
   a.fast += (first ? 1 : mcl_.average_fast) * (likelihood - a.fast);
   const auto here = estimate().mean;
   a.explained += mcl_.average_fast * (model_->explained(*m.scan, here) - a.explained);
-  double fit_here;
-  model_->logLikelihoods(*m.scan, &here.x, &here.y, &here.phi, 1, &fit_here);
-  rivals_.compare(*model_, *m.scan, fit_here, random_);
+  const auto judged = judgeHere(here, *m.scan);
+  a.through += mcl_.average_fast * (judged.through - a.through);
+  rivals_.compare(*model_, *m.scan, judged.fit, news * model_->weight(), random_);
   if (m.time_s - a.looked_s < mcl_.recovery_pause_s) return;
   a.looked_s = m.time_s;
-  const bool doubtful = a.fast < mcl_.recovery_below * a.slow || a.explained < kLeastExplained;
   const auto count = static_cast<size_t>(mcl_.recovery_share * static_cast<double>(cloud_.size()));
-  const size_t looks = candidateCount(mcl_.candidates_per_m2 / 10, std::max<size_t>(count, 1),
-                                      doubtful ? kMostCandidates : kMostLooks);
-  const Candidates places = Candidates::draw(*model_, *m.scan, looks, random_);
-  rivals_.renew(places, here);
-  if (!doubtful || model_->weight() * (places.best - fit) < mcl_.recovery_gain || count == 0) return;
+  if (count > 0 && rivals_.evidence(here) >= mcl_.recovery_gain) recover(count);
+  const bool doubtful = a.fast < mcl_.recovery_below * a.slow || a.explained < kLeastExplained;
+  const size_t looks = candidateCount(mcl_.candidates_per_m2 / 10, 1, doubtful ? kMostCandidates : kMostLooks);
+  rivals_.renew(Candidates::draw(*model_, *m.scan, looks, random_), here);
+}
+
+void Mcl::recover(size_t count) {
   makeRoom(count, kLostPrior);
-  drawFrom(places, cloud_.size() - count, count);
+  for (size_t k = cloud_.size() - count; k < cloud_.size(); ++k) {
+    const auto p = rivals_.draw(random_);
+    const auto i = static_cast<Eigen::Index>(k);
+    cloud_.x[i] = p.x;
+    cloud_.y[i] = p.y;
+    cloud_.yaw[i] = p.phi;
+  }
   estimate_.reset();
 }
 
@@ -250,7 +274,7 @@ double Mcl::shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) cons
 
 Mcl::Signs Mcl::signs() const {
   const auto here = estimate().mean;
-  return {shareBeyond(here, 1), memory_.explained, model_->weight() * rivals_.advantage(here).value_or(0),
+  return {shareBeyond(here, 1), memory_.explained, rivals_.evidence(here), memory_.through,
           memory_.scans, memory_.fast, memory_.slow};
 }
 
@@ -265,7 +289,7 @@ void Mcl::save(std::vector<double>& out) const {
   ParticleFilter::save(out);
   rivals_.save(out);
   const auto& a = memory_;
-  for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.scans, a.looked_s})
+  for (double v : {a.anywhere, a.travel, a.turn, a.slow, a.fast, a.explained, a.scans, a.looked_s, a.through})
     out.push_back(v);
 }
 
@@ -273,7 +297,7 @@ void Mcl::restore(const std::vector<double>& state) {
   estimate_.reset();
   ParticleFilter::restore(state);
   const double* p = state.data() + state.size() - kMemorySize;
-  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]};
+  memory_ = {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8]};
   rivals_.restore(p);
 }
 

@@ -27,7 +27,7 @@ struct MclParams {
   double average_fast = 0.3;
   double recovery_share = 0.2;
   double recovery_below = 0.8;
-  double recovery_gain = 3;
+  double recovery_gain = 20;
   double recovery_pause_s = 2;
   int rivals = 64;
 
@@ -57,7 +57,8 @@ class Mcl final : public ParticleFilter {
   struct Signs {
     double beyond = 0;     ///< weight of the particles farther than 1 m from the estimate
     double explained = 0;  ///< share of the beams that end near an obstacle, averaged over the last scans
-    double advantage = 0;  ///< of the best rival, as a logarithm of odds
+    double evidence = 0;   ///< for the best rival, as a logarithm of odds
+    double through = 0;    ///< share of the beams that went through walls, averaged likewise
     double scans = 0;      ///< used since the start
     double fast = 0, slow = 0;
   };
@@ -72,7 +73,9 @@ class Mcl final : public ParticleFilter {
   double temper() const;
   size_t candidateCount(double per_m2, size_t least, double most) const;
   void drawFrom(const Candidates& c, size_t first, size_t count);
-  void watch(const Measurement& m, double fit);
+  void watch(const Measurement& m, double fit, double news);
+  ScanModel::Judgement judgeHere(const mrpt::math::TPose2D& here, const Scan& scan) const;
+  void recover(size_t count);
   double shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) const;
 
   struct Memory {                 // all of it plain numbers: they are saved
@@ -81,7 +84,8 @@ class Mcl final : public ParticleFilter {
     double slow = 0, fast = 0;    // averages of the beams' mean likelihood
     double explained = 1;         // average share of beams that the map explains
     double scans = 0;
-    double looked_s = 0;          // when other places were last looked for
+    double looked_s = 0;  // when other places were last looked for
+    double through = 0;   // average share of beams that the map forbids
   };
   MclParams mcl_;
   std::shared_ptr<const ScanModel> model_;

@@ -15,7 +15,7 @@ using mrpt::math::TPose2D;
 
 constexpr double kSameSpot_m = 0.5, kSameTurn = 0.35;  // candidates nearer to each other are one place
 constexpr double kStep_m = 0.08, kStepTurn = 0.05;     // sd of a rival's step towards a better pose
-constexpr double kRecent = 0.2;                        // weight of a scan in the mean advantage, once there are some
+constexpr double kMostEvidence = 30;                   // so that a rival that fails is soon forgotten
 constexpr size_t kPerRival = 10;                       // candidates looked through for each place to fill
 
 double apart(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -48,22 +48,26 @@ void Rivals::move(const MotionStep& motion) {
   }
 }
 
-void Rivals::compare(const ScanModel& model, const Scan& scan, double fit, Random& random) {
+void Rivals::compare(const ScanModel& model, const Scan& scan, double fit, double weight, Random& random) {
+  constexpr size_t kTries = 4;
   for (auto& r : rivals_) {
-    const TPose2D step{r.pose.x + kStep_m * random.gaussian(), r.pose.y + kStep_m * random.gaussian(),
-                       wrapAngle(r.pose.phi + kStepTurn * random.gaussian())};
-    const double x[2] = {r.pose.x, step.x}, y[2] = {r.pose.y, step.y}, yaw[2] = {r.pose.phi, step.phi};
-    double there[2];
-    model.logLikelihoods(scan, x, y, yaw, 2, there);
-    if (there[1] > there[0]) r.pose = step;
+    double x[kTries], y[kTries], yaw[kTries], there[kTries];
+    for (size_t k = 0; k < kTries; ++k) {  // the first as it is
+      x[k] = r.pose.x + (k > 0 ? kStep_m * random.gaussian() : 0);
+      y[k] = r.pose.y + (k > 0 ? kStep_m * random.gaussian() : 0);
+      yaw[k] = wrapAngle(r.pose.phi + (k > 0 ? kStepTurn * random.gaussian() : 0));
+    }
+    model.logLikelihoods(scan, x, y, yaw, kTries, there);
+    const auto best = static_cast<size_t>(std::max_element(there, there + kTries) - there);
+    r.pose = {x[best], y[best], yaw[best]};
     ++r.scans;
-    r.advantage += std::max(kRecent, 1 / r.scans) * (std::max(there[0], there[1]) - fit - r.advantage);
+    r.evidence = std::clamp(r.evidence + weight * (model.judge(scan, r.pose).fit - fit), 0.0, kMostEvidence);
   }
 }
 
 void Rivals::renew(const Candidates& from, const TPose2D& estimate) {
   std::stable_sort(rivals_.begin(), rivals_.end(),
-                   [](const Rival& a, const Rival& b) { return a.advantage > b.advantage; });
+                   [](const Rival& a, const Rival& b) { return a.evidence > b.evidence; });
   std::erase_if(rivals_, [&](const Rival& r) { return apart(r.pose, estimate) < kApart_m; });
   for (size_t i = 1; i < rivals_.size();) {  // those that met are one
     const bool met = std::any_of(rivals_.begin(), rivals_.begin() + static_cast<std::ptrdiff_t>(i),
@@ -85,16 +89,30 @@ void Rivals::renew(const Candidates& from, const TPose2D& estimate) {
   }
 }
 
-std::optional<double> Rivals::advantage(const TPose2D& estimate) const {
-  std::optional<double> out;
+double Rivals::evidence(const TPose2D& estimate) const {
+  double out = 0;
   for (const auto& r : rivals_)
-    if (r.scans >= 2 && apart(r.pose, estimate) >= kApart_m && (!out || r.advantage > *out)) out = r.advantage;
+    if (apart(r.pose, estimate) >= kApart_m) out = std::max(out, r.evidence);
   return out;
+}
+
+TPose2D Rivals::draw(Random& random) const {
+  double best = 0, sum = 0;
+  for (const auto& r : rivals_) best = std::max(best, r.evidence);
+  for (const auto& r : rivals_) sum += std::exp(r.evidence - best);
+  double left = sum * random.uniform();
+  TPose2D out;
+  for (const auto& r : rivals_) {
+    out = r.pose;
+    if ((left -= std::exp(r.evidence - best)) < 0) break;
+  }
+  return {out.x + kStep_m * random.gaussian(), out.y + kStep_m * random.gaussian(),
+          wrapAngle(out.phi + kStepTurn * random.gaussian())};
 }
 
 void Rivals::save(std::vector<double>& out) const {
   for (const auto& r : rivals_)
-    for (const double v : {r.pose.x, r.pose.y, r.pose.phi, r.advantage, r.scans}) out.push_back(v);
+    for (const double v : {r.pose.x, r.pose.y, r.pose.phi, r.evidence, r.scans}) out.push_back(v);
   out.push_back(static_cast<double>(rivals_.size()));
 }
 

@@ -4,7 +4,6 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "core/random.h"
@@ -24,24 +23,28 @@ struct Candidates {
 
 /// A few other places where the robot might be, each followed along and weighed by the same scans as the estimate.
 ///
-/// What one scan says of a place is little: of thousands of places some fit it by chance. A rival is chosen by one scan
-/// and judged by those that follow, by the mean of (log-likelihood at the rival) - (log-likelihood at the estimate).
-/// Where the estimate is right, no place beats it for long, however little the map explains; where it is wrong, the
-/// true place does. All rivals are farther from the estimate than `kApart_m` when chosen.
+/// What one scan says of a place is little: of thousands of places some fit it by chance, and things that the map does
+/// not know make the right one fit badly for a while. A rival is chosen by one scan and judged by those that follow: a
+/// cumulative sum test (Page 1954) of the log-likelihood ratio against the estimate, in which scans count by the way
+/// between them, as views from the same spot err alike. Where the estimate is right, no place beats it for long,
+/// however little the map explains; where it is wrong, the true place does.
 class Rivals {
  public:
-  static constexpr double kApart_m = 1;
+  static constexpr double kApart_m = 1;  ///< they are farther from the estimate
 
   explicit Rivals(size_t count) : most_(count) { rivals_.reserve(count); }
   void clear() { rivals_.clear(); }
   void move(const MotionStep& motion);
-  /// Each rival steps to a better pose beside it if the scan shows one, then is compared with the estimate.
-  /// @param fit  log-likelihood of the scan at the estimate
-  void compare(const ScanModel& model, const Scan& scan, double fit, Random& random);
+  /// Each rival goes to a better pose beside it if the scan shows one, then is compared with the estimate.
+  /// @param fit     of the scan at the estimate, as ScanModel::judge gives it
+  /// @param weight  what a nat of the scan's log-likelihood counts for
+  void compare(const ScanModel& model, const Scan& scan, double fit, double weight, Random& random);
   /// The best of the candidates, apart from each other and from the estimate, in place of the worst rivals.
   void renew(const Candidates& from, const mrpt::math::TPose2D& estimate);
-  /// Largest mean advantage over the estimate of a rival farther than kApart_m from it; none before two scans.
-  std::optional<double> advantage(const mrpt::math::TPose2D& estimate) const;
+  /// Most evidence [nats, >= 0] for a rival farther than kApart_m from the estimate.
+  double evidence(const mrpt::math::TPose2D& estimate) const;
+  /// A pose about one of the rivals, chosen by exp(evidence).
+  mrpt::math::TPose2D draw(Random& random) const;
 
   size_t size() const { return rivals_.size(); }
   void save(std::vector<double>& out) const;
@@ -51,7 +54,7 @@ class Rivals {
  private:
   struct Rival {
     mrpt::math::TPose2D pose;
-    double advantage = 0, scans = 0;
+    double evidence = 0, scans = 0;
   };
   size_t most_;
   std::vector<Rival> rivals_;

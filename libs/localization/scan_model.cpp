@@ -11,6 +11,8 @@
 namespace sidestep {
 namespace {
 constexpr size_t kMostBeams = 2000;
+constexpr float kShort = 1, kThrough = 6;  // what a beam costs that ends short of the walls, or behind one
+constexpr float kGrazing_m = 0.5f;            // so much of a beam may run along a wall
 }
 
 void ScanModelParams::visit(ParamVisitor& v) {
@@ -148,6 +150,28 @@ float ScanModel::beams(const GridPose& p, const Scan& scan) const {
     sum += std::log((hit * norm * std::exp(-0.5f * e * e) + before + rest / reach) / norm);
   }
   return sum;
+}
+
+ScanModel::Judgement ScanModel::judge(const Scan& scan, const mrpt::math::TPose2D& pose) const {
+  const GridPose p = toGrid(pose.x, pose.y, pose.phi);
+  const float per = static_cast<float>(1 / frame_.resolution_m), sd = static_cast<float>(params_.sd_m) * per;
+  const float lx = p.x + p.c * scan.laser_x - p.s * scan.laser_y, ly = p.y + p.s * scan.laser_x + p.c * scan.laser_y;
+  float sum = 0;
+  size_t through = 0;
+  for (size_t i = 0; i < scan.size(); ++i) {
+    const float u = p.x + p.c * scan.x[i] - p.s * scan.y[i], v = p.y + p.s * scan.x[i] + p.c * scan.y[i];
+    const float off = distance_[cellAt(u, v)] / sd, miss = 0.5f * off * off;
+    if (miss < kShort) {
+      sum -= miss;
+      continue;
+    }
+    const float dx = u - lx, dy = v - ly, z = std::sqrt(dx * dx + dy * dy), most = z - kGrazing_m * per;
+    const bool crossed = most > 0 && castRay(lx, ly, dx / z, dy / z, most) < most;
+    through += crossed;
+    sum -= crossed ? std::min(miss, kThrough) : kShort;
+  }
+  const double n = static_cast<double>(std::max<size_t>(scan.size(), 1));
+  return {static_cast<double>(sum), static_cast<double>(through) / n};
 }
 
 void ScanModel::logLikelihoods(const Scan& scan, const double* x, const double* y, const double* yaw, size_t n,

@@ -43,6 +43,14 @@ class ScanModel {
                       double* out) const;
   /// Share of the beams that end within one and a half sd of an obstacle.
   double explained(const Scan& scan, const mrpt::math::TPose2D& pose) const;
+  /// How well a scan and a place go together, for telling places apart.
+  struct Judgement {
+    double fit = 0;      ///< log-likelihood of all beams; one that ends short is excused, one through a wall is not
+    double through = 0;  ///< share of the beams that went through a wall of the map to where they ended
+  };
+  /// Things that the map does not know shorten many beams at once and say little against a place. Nothing excuses a beam
+  /// that is longer than the map allows.
+  Judgement judge(const Scan& scan, const mrpt::math::TPose2D& pose) const;
   /// What a scan of `beams` beams weighs, as a factor of its log-likelihood.
   double weight() const { return params_.beam_weight; }
   /// A pose drawn evenly from the free cells and all headings.

@@ -239,6 +239,15 @@ const std::vector<std::string>& samplingPlanners() {
   return words;
 }
 
+std::string refusesSpace(const std::string& word, const std::string& space) {
+  if (space != "dubins") return "";
+  if (word == "prmstar")
+    return "prmstar cannot plan in the space dubins, as its roadmap knows no directions; take reeds-shepp";
+  if (word == "bitstar" || word == "informed-rrtstar")  // OMPL 1.5.2 ends by an assertion
+    return word + " cannot plan in the space dubins, as its samples know no directions; take reeds-shepp";
+  return "";
+}
+
 std::unique_ptr<GlobalPlanner> makeSamplingPlanner(const std::string& word, std::shared_ptr<const PlanningGrid> grid,
                                                    const SamplingParams& params) {
   const auto kind = kinds().find(word);
@@ -246,10 +255,7 @@ std::unique_ptr<GlobalPlanner> makeSamplingPlanner(const std::string& word, std:
     const auto near = nearestWord(word, samplingPlanners());
     throw ConfigError("'" + word + "' is no planner" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
-  if (word == "prmstar" && params.space == "dubins")
-    throw ConfigError("prmstar cannot plan in the space dubins, as its roadmap knows no directions; take reeds-shepp");
-  if ((word == "bitstar" || word == "informed-rrtstar") && params.space == "dubins")  // OMPL 1.5.2 ends by an assertion
-    throw ConfigError(word + " cannot plan in the space dubins, as its samples know no directions; take reeds-shepp");
+  if (const auto why = refusesSpace(word, params.space); !why.empty()) throw ConfigError(why);
   return std::make_unique<SamplingPlanner>(kind->second, std::move(grid), params);
 }
 

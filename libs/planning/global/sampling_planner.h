@@ -24,6 +24,9 @@ struct SamplingParams {
 /// Words for the planners of OMPL that are known here.
 const std::vector<std::string>& samplingPlanners();
 
+/// Why a planner of OMPL's cannot plan in a space, in words; empty if it can.
+std::string refusesSpace(const std::string& word, const std::string& space);
+
 /// A planner of OMPL's (Sucan, Moll & Kavraki 2012), by its word: rrtconnect, rrtstar, informed-rrtstar, bitstar,
 /// prmstar, kpiece.
 ///
@@ -32,7 +35,7 @@ const std::vector<std::string>& samplingPlanners();
 /// threads). rrtconnect and kpiece end with the first path and shorten it; the others use all the time. OMPL has one
 /// seed for the whole process: not for several threads at once. Headings of "se2" are those along the way, as the base
 /// can turn on the spot; arcs keep the headings of start and goal.
-/// @throws ConfigError for a word that is not known, and for prmstar with dubins: its roadmap knows no directions.
+/// @throws ConfigError for a word that is not known, and for one that refusesSpace.
 std::unique_ptr<GlobalPlanner> makeSamplingPlanner(const std::string& word, std::shared_ptr<const PlanningGrid> grid,
                                                    const SamplingParams& params);
 
