@@ -21,6 +21,7 @@ void ExplorationParams::visit(ParamVisitor& v) {
   v.number("detour_share", detour_share, {0.1, 3}, "-", "reach of the graph beside the straight line, of its length");
   v.number("detour_least_m", detour_least_m, {0.5, 50}, "m", "least reach of the graph beside the straight line");
   v.number("narrow_weight", narrow_weight, {0, 1000}, "1/m^3", "cost of gaps too narrow for the wished clearance");
+  v.integer("states_max", states_max, {0, 100000}, "kept of each half second of the search in space and time");
 }
 
 const std::vector<GapPath>& GapGraph::search(const Query& query) {
