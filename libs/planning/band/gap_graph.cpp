@@ -50,8 +50,10 @@ void GapGraph::layColumns(const Query& query) {
 }
 
 void GapGraph::blockDisc(const Query& query, double u, double v, double radius, int first, int last) {
+  if (u + radius < first * width_ || u - radius > (last + 1) * width_) return;
   // start and goal themselves are never blocked: the robot stands there, or is told to
-  const double from_start = std::hypot(u, v), from_goal = std::hypot(u - query.frame.length, v);
+  const double ahead = u - query.frame.length;
+  const double from_start = std::sqrt(u * u + v * v), from_goal = std::sqrt(ahead * ahead + v * v);
   const double r = std::min({radius, 0.98 * from_start, 0.98 * from_goal});
   first = std::max(first, static_cast<int>(std::floor((u - r) / width_)));
   last = std::min(last, static_cast<int>(std::floor((u + r) / width_)));
