@@ -11,7 +11,9 @@ namespace {
 
 constexpr int kPatience = 4;          ///< plans after which a band that touches something makes room for another
 constexpr double kMuchShorter = 0.9;  ///< a fresh band of a known class is tried if it takes less than this part
-constexpr double kTryAgain_s = 0.5;   ///< after having found no way among what moves
+constexpr int kWorkMost = 60000;      ///< states of one search in space and time
+constexpr double kTryAgainMost_s = 4;
+constexpr double kTryAgain_s = 0.25;  ///< after having found no way among what moves
 constexpr double kNarrow_m = 0.03;    ///< least clearance of a drive that is searched
 constexpr double kSpare_m = 0.05;     ///< over the least clearance, for what the optimizer and chords take
 
@@ -81,7 +83,9 @@ void BandPlanner::addAlong(std::span<const mrpt::math::TPoint2D> way, const mrpt
 /// wait, let pass or back off. Those that stay clear when optimized take the places of bands that touch.
 void BandPlanner::letPass(const PlanInput& input) {
   const auto clear = [](const BandCandidate& c) { return c.alive && c.whole.clear && !c.result.diverged; };
-  if (!view_.movesInTime() || input.time_s < let_pass_again_ || std::any_of(pool_.begin(), pool_.end(), clear)) return;
+  if (!view_.movesInTime() || input.time_s < let_pass_again_ || !goalIsFree() ||
+      std::any_of(pool_.begin(), pool_.end(), clear))
+    return;
   const double radius = problem_.robot.radius_m, least = radius + params_.band.distance_least_m + kSpare_m;
   int placed = searchInTime(input) && place(passing_) ? 1 : 0;
   timed_count_ = 0;
@@ -93,7 +97,16 @@ void BandPlanner::letPass(const PlanInput& input) {
     if (input.out_of_time && input.out_of_time()) break;
     if (becomesClear(input, *t) && place(passing_)) ++placed;
   }
-  if (placed == 0) let_pass_again_ = input.time_s + kTryAgain_s;
+  // each time in vain doubles the time until the next
+  let_pass_wait_s_ = placed > 0 ? kTryAgain_s : std::min(2 * let_pass_wait_s_, kTryAgainMost_s);
+  let_pass_again_ = input.time_s + let_pass_wait_s_;
+}
+
+/// Whether nothing stands on the goal.
+bool BandPlanner::goalIsFree() const {
+  bool free = true;
+  view_.near(goal_.pose.x, goal_.pose.y, -1, problem_.robot.radius_m, [&](const Proximity&) { free = false; });
+  return free;
 }
 
 /// Puts a clear band in the place of none, or of the one that touches something first; @return whether there is any
@@ -171,10 +184,14 @@ bool BandPlanner::searchInTime(const PlanInput& input) {
     double cell_m;
     int headings;
   };
+  int work = kWorkMost;
   for (const Raster& raster : {Raster{0.1, 24}, Raster{0.07, 36}, Raster{0.15, 20}}) {
+    query.work_max = work;
     query.cell_m = raster.cell_m;
     query.headings = raster.headings;
     if (search_.search(query, fresh_, accept)) return true;
+    work -= static_cast<int>(search_.work());
+    if (work <= 0 || trials > kTrials) break;
   }
   return false;
 }

@@ -55,6 +55,7 @@ void BandPlanner::reset() {
   last_turn_ = 0;
   steady_until_ = -1e9;
   let_pass_again_ = -1e9;
+  let_pass_wait_s_ = 0.25;
 }
 
 const BandCandidate* BandPlanner::chosen() const {

@@ -135,6 +135,7 @@ class BandPlanner final : public LocalPlanner {
                const PlanInput& input);
   bool searchInTime(const PlanInput& input);
   bool place(BandCandidate& c);
+  bool goalIsFree() const;
   bool becomesClear(const PlanInput& input, const TimedBand& timed);
   void tryQuickest(const PlanInput& input, Worker& worker, BandCandidate& c);
   void judge(const PlanInput& input);
@@ -161,7 +162,7 @@ class BandPlanner final : public LocalPlanner {
   size_t timed_count_ = 0;
   std::vector<mrpt::math::TPoint2D> bow_;
   BandCandidate passing_;
-  double let_pass_again_ = -1e9;  ///< when it is worth trying again
+  double let_pass_again_ = -1e9, let_pass_wait_s_ = 0.25;  ///< when it is worth trying again
   std::vector<size_t> order_;
   std::vector<TrajectoryPoint> driven_;
   LocalGoal goal_;

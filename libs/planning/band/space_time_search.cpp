@@ -12,7 +12,11 @@ namespace {
 
 constexpr double kPixel_m = 0.05;       ///< of the map in which a layer's obstacles are drawn
 constexpr size_t kTable = 1 << 15;      ///< places for cells
+constexpr double kTurn_s = M_PI / 2;    ///< half of what it costs to face away from the goal
 constexpr double kStraight_rad = 0.12;  ///< the goal may be so far off the heading for a straight end
+
+/// Into [-pi, pi], if not more than a turn out of it.
+double wrapped(double angle) { return angle > M_PI ? angle - 2 * M_PI : angle < -M_PI ? angle + 2 * M_PI : angle; }
 
 }  // namespace
 
@@ -25,15 +29,17 @@ void SpaceTimeSearch::start(const Query& query) {
   const int v = std::clamp(static_cast<int>(std::lround(query.ends.v / v_step_)), v_low_, v_most_);
   const int w = std::clamp(static_cast<int>(std::lround(query.ends.w / w_step_)), -w_most_, w_most_);
   states_.clear();
-  states_.push_back(
-      {query.start.x, query.start.y, query.start.phi, 0, static_cast<int16_t>(v), static_cast<int16_t>(w), -1});
+  states_.push_back({query.start.x, query.start.y, std::remainder(query.start.phi, 2 * M_PI), 0,
+                     static_cast<int16_t>(v), static_cast<int16_t>(w), -1});
   first_.assign({0, 1});
 }
 
 bool SpaceTimeSearch::grow(const Query& query, int layer) {
   if (layer == 0) return true;
   const double t = layer * kStep_s;
-  if (t > query.horizon_s || (query.stop != nullptr && *query.stop && (*query.stop)())) return false;
+  if (t > query.horizon_s || states_.size() > static_cast<size_t>(query.work_max) ||
+      (query.stop != nullptr && *query.stop && (*query.stop)()))
+    return false;
   stamp(query, t - kStep_s / 2, half_);
   stamp(query, t, full_);
   const size_t at = static_cast<size_t>(layer), first = first_[at - 1], last = first_[at];
@@ -84,6 +90,8 @@ void SpaceTimeSearch::tabulateSteps() {
           s.x = x;
           s.y = y;
           s.theta = theta;
+          s.c = std::cos(theta);
+          s.s = std::sin(theta);
           steps_.push_back(s);
         }
 }
@@ -148,7 +156,7 @@ bool SpaceTimeSearch::clear(const Query& query, double x, double y, const std::v
 void SpaceTimeSearch::growFrom(const Query& query, size_t first, size_t last) {
   for (size_t i = first; i < last; ++i) {
     const State s = states_[i];
-    const double x = s.x, y = s.y, theta = s.theta, c = std::cos(theta), sn = std::sin(theta);
+    const double x = s.x, y = s.y, c = std::cos(s.theta), sn = std::sin(s.theta);
     for (int dv = -1; dv <= 1; ++dv)
       for (int dw = -1; dw <= 1; ++dw) {
         if (s.v + dv < v_low_ || s.v + dv > v_most_ || std::abs(s.w + dw) > w_most_) continue;
@@ -160,15 +168,15 @@ void SpaceTimeSearch::growFrom(const Query& query, size_t first, size_t last) {
         if (!clear(query, half.x, half.y, half_) || !clear(query, full.x, full.y, full_)) continue;
         State next{full.x,
                    full.y,
-                   theta + step.theta,
+                   wrapped(s.theta + step.theta),
                    0,
                    static_cast<int16_t>(s.v + dv),
                    static_cast<int16_t>(s.w + dw),
                    static_cast<int>(i)};
-        const double dx = query.goal.x - full.x, dy = query.goal.y - full.y;
-        const double off = std::abs(std::remainder(std::atan2(dy, dx) - theta - step.theta, 2 * M_PI));
-        next.left =
-            std::hypot(dx, dy) / query.limits.v_max + off + 0.3 * std::abs(next.w) * w_step_ - 0.3 * next.v / v_most_;
+        const double dx = query.goal.x - full.x, dy = query.goal.y - full.y, d = std::sqrt(dx * dx + dy * dy);
+        const double ahead = (c * dx + sn * dy) * step.c + (c * dy - sn * dx) * step.s;  // of the goal, d cos(off)
+        next.left = d / query.limits.v_max + kTurn_s * (1 - ahead / std::max(d, 1e-9)) +
+                    0.3 * std::abs(next.w) * w_step_ - 0.3 * next.v / v_most_;
         keep(query, next);
       }
   }
@@ -180,7 +188,7 @@ void SpaceTimeSearch::keep(const Query& query, const State& s) {
     return static_cast<uint64_t>(static_cast<int64_t>(value / query.cell_m + 32768));
   };
   const double turn = 2 * M_PI / query.headings;
-  const auto heading = static_cast<uint64_t>((std::remainder(s.theta, 2 * M_PI) + M_PI) / turn);
+  const auto heading = static_cast<uint64_t>((s.theta + M_PI) / turn);
   const uint64_t fast = s.v <= 0 ? 0 : 2 * s.v <= v_most_ ? 1 : 2, turns = s.w < 0 ? 0 : s.w > 0 ? 2 : 1;
   const uint64_t key = ((cell(s.x) * 65536 + cell(s.y)) * 256 + heading) * 9 + fast * 3 + turns;
   const auto layer = static_cast<uint32_t>(first_.size());
@@ -212,8 +220,9 @@ void SpaceTimeSearch::thin(int most, size_t first) {
 /// Whether the rest can be driven straight, from the state's speed on.
 bool SpaceTimeSearch::straightOn(const Query& query, const State& s, double t) const {
   constexpr double kReach_m = 3;
+  if (s.v < 0 || s.w != 0) return false;
   const double dx = query.goal.x - s.x, dy = query.goal.y - s.y, d = std::hypot(dx, dy);
-  if (d > kReach_m || s.v < 0 || s.w != 0) return false;
+  if (d > kReach_m) return false;
   if (d > 0.05 && std::abs(std::remainder(std::atan2(dy, dx) - s.theta, 2 * M_PI)) > kStraight_rad) return false;
   const double v = s.v * v_step_;
   if (query.ends.goal_stops && v * v / (2 * query.limits.brake) > d + 0.05) return false;
@@ -237,6 +246,8 @@ void SpaceTimeSearch::trace(const Query& query, int state, Band& out) const {
   std::reverse(out.begin(), out.end());
   for (size_t k = 0; k < out.size(); ++k) out[k].t = static_cast<double>(k) * kStep_s;
   out.front() = {query.start.x, query.start.y, query.start.phi, 0};
+  for (size_t k = 1; k < out.size(); ++k)
+    out[k].theta = out[k - 1].theta + std::remainder(out[k].theta - out[k - 1].theta, 2 * M_PI);
   const BandPose from = out.back();
   const double dx = query.goal.x - from.x, dy = query.goal.y - from.y, d = std::hypot(dx, dy);
   const SpeedProfile profile(d, states_[static_cast<size_t>(state)].v * v_step_, query.limits, query.ends.goal_stops);

@@ -28,6 +28,7 @@ class SpaceTimeSearch {
     double keep_out_m = 0.4;  ///< least distance of the robot's centre to the edge of anything
     double horizon_s = 30;    ///< later arrivals are none
     int states_max = 1000;    ///< of a layer
+    int work_max = 60000;     ///< of all layers
     double cell_m = 0.1;      ///< states nearer to each other than that compete,
     int headings = 24;        ///< in each of so many directions; at most 256
     GridBounds bounds;        ///< not left
@@ -50,6 +51,9 @@ class SpaceTimeSearch {
     return false;
   }
 
+  /// States that were laid, for the caller to count.
+  size_t work() const { return states_.size(); }
+
  private:
   static constexpr double kStep_s = 0.5;
   struct State {
@@ -60,7 +64,7 @@ class SpaceTimeSearch {
   };
   /// Where a step leads from the origin, half of it and all.
   struct Step {
-    double x_half, y_half, x, y, theta;
+    double x_half, y_half, x, y, theta, c, s;
   };
 
   void start(const Query& query);
