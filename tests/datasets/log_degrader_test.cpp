@@ -210,7 +210,12 @@ TEST(LogDegrader, TwoJumpsAddUpAndDelaysCrossThem) {
   EXPECT_EQ(seconds(out.of(SensorKind::kGps)), (std::vector<double>{1.7, 2.7, 3.7, 4.7, 5.7, 6.7}));
   for (size_t i = 1; i < out.entries.size(); ++i) EXPECT_LE(out.entries[i - 1].time_s, out.entries[i].time_s);
   for (size_t i = 0; i < 6; ++i)  // each cut costs the metre between the readings beside it
-    EXPECT_NEAR(planar(out.of(SensorKind::kOdometry)[i]).x, i < 2 ? i : i < 4 ? i - 1 : i - 2, 1e-12) << i;
+    EXPECT_NEAR(planar(out.of(SensorKind::kOdometry)[i]).x,
+                static_cast<double>(i < 2   ? i
+                                    : i < 4 ? i - 1
+                                            : i - 2),
+                1e-12)
+        << i;
 }
 
 std::string errorOf(const std::string& yaml) {
@@ -237,9 +242,9 @@ TEST(LogDegrader, WhatCannotBeDoneIsRefusedByName) {
             "events.e: bias cannot be done to theta of gps (mrpt::obs::CObservationGPS), which has none");
   EXPECT_EQ(errorOf("events: {e: {label: odometry, components: theta}}"),
             "events.e: odometry cannot lose theta alone; components: all drops the observation");
-  EXPECT_EQ(
-      errorOf("events: {e: {label: gps, do: dorp}}"),
-      "script.yaml:1: events.e.do = dorp, allowed drop, thin, delay, freeze, bias, spike, noise, jump; did you mean 'drop'?");
+  EXPECT_EQ(errorOf("events: {e: {label: gps, do: dorp}}"),
+            "script.yaml:1: events.e.do = dorp, allowed drop, thin, delay, freeze, bias, spike, noise, jump; did you "
+            "mean 'drop'?");
 }
 
 TEST(Zone, KnowsItsInsideOutsideAndItsDents) {
