@@ -3,6 +3,9 @@
 #include "evaluation/planner_driver.h"
 
 #include <algorithm>
+#include <vector>
+
+#include "simulation/diff_drive.h"
 
 namespace sidestep {
 namespace {
@@ -22,16 +25,30 @@ class PlannerDriver final : public Driver {
     input.moving = view.moving;
     input.limits = limits_;
     input.period_s = view.period_s;
+    if (view.delay_s > 0) lookAhead(view, input);
     planner_->plan(input, out_);
     if (watch_) watch_(input, out_);
     return out_.command;
   }
 
  private:
+  /// What is ordered now shows after `delay_s`: plans from there. Until then the base goes on about as it moves and was
+  /// ordered, and what it was ordered it will do; a window around how it moves now would hardly let it speed up.
+  void lookAhead(const DriverView& view, PlanInput& input) {
+    const double v = 0.5 * (view.twist.vx + view.ordered.vx), w = 0.5 * (view.twist.omega + view.ordered.omega);
+    input.pose = alongArc(view.pose, v * view.delay_s, w * view.delay_s);
+    input.twist = view.ordered;
+    moving_.assign(view.moving.begin(), view.moving.end());
+    for (MovingObstacle& m : moving_)
+      if (m.predicted.empty()) m.position += m.velocity * view.delay_s;
+    input.moving = moving_;
+  }
+
   std::unique_ptr<LocalPlanner> planner_;
   RobotLimits limits_;
   PlanWatch watch_;
   PlanOutput out_;
+  std::vector<MovingObstacle> moving_;
 };
 
 }  // namespace

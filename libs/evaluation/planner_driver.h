@@ -13,7 +13,8 @@ namespace sidestep {
 /// Is told what a planner was asked and what it answered, once a control period.
 using PlanWatch = std::function<void(const PlanInput&, const PlanOutput&)>;
 
-/// A local planner at the wheel of a simulated robot: goes straight for the goal with what is perceived.
+/// A local planner at the wheel of a simulated robot: goes straight for the goal with what is perceived. Where the base
+/// is behind its orders (lag, latency), it plans from where the robot will be by then.
 std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
                                           PlanWatch watch = {});
 
