@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/diff_drive.h"
+
 namespace sidestep {
 namespace {
 
@@ -30,20 +32,34 @@ class PlannerDriver final : public Driver {
     input.moving = moving(view);
     input.limits = limits_;
     input.period_s = view.period_s;
+    if (view.delay_s > 0) lookAhead(view, input);
     planner_->plan(input, out_);
     if (watch_) watch_(input, out_);
     return out_.command;
   }
 
  private:
+  /// What is ordered now shows after `delay_s`: plans from there. Until then the base goes on about as it moves and was
+  /// ordered, and what it was ordered it will do; a window around how it moves now would hardly let it speed up.
+  static void lookAhead(const DriverView& view, PlanInput& input) {
+    const double v = 0.5 * (view.twist.vx + view.ordered.vx), w = 0.5 * (view.twist.omega + view.ordered.omega);
+    input.pose = alongArc(view.pose, v * view.delay_s, w * view.delay_s);
+    input.twist = view.ordered;
+  }
+  /// Those who move, where they are when the base does what is ordered now.
   std::span<const MovingObstacle> moving(const DriverView& view) {
-    if (tracking_.filter == "none") return view.moving;
-    for (const auto& o : view.moving) {
-      const double said = std::sqrt(std::max(o.covariance(0, 0), 0.0));
-      predictor_.observe(view.time_s, o.id, o.position, said > 0 ? said : tracking_.position_sd_m, o.radius_m);
+    if (tracking_.filter != "none") {
+      for (const auto& o : view.moving) {
+        const double said = std::sqrt(std::max(o.covariance(0, 0), 0.0));
+        predictor_.observe(view.time_s, o.id, o.position, said > 0 ? said : tracking_.position_sd_m, o.radius_m);
+      }
+      predictor_.predict(view.time_s + view.delay_s, moving_);
+      return moving_;
     }
-    predictor_.predict(view.time_s, tracked_);
-    return tracked_;
+    if (view.delay_s <= 0) return view.moving;
+    moving_.assign(view.moving.begin(), view.moving.end());
+    for (MovingObstacle& m : moving_) m.position += m.velocity * view.delay_s;
+    return moving_;
   }
 
   std::unique_ptr<LocalPlanner> planner_;
@@ -52,8 +68,8 @@ class PlannerDriver final : public Driver {
   MotionPredictor predictor_;
   GlobalRoute route_;
   PlanWatch watch_;
-  std::vector<MovingObstacle> tracked_;
   PlanOutput out_;
+  std::vector<MovingObstacle> moving_;
 };
 
 }  // namespace

@@ -37,6 +37,7 @@ struct DriverParams {
 using PlanWatch = std::function<void(const PlanInput&, const PlanOutput&)>;
 
 /// A local planner at the wheel of a simulated robot: goes for the goal with what is perceived, and knows nothing else.
+/// Where the base is behind its orders (lag, latency), it plans from where the robot will be by then.
 std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
                                           const DriverParams& params = {}, PlanWatch watch = {});
 

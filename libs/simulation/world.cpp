@@ -193,8 +193,9 @@ void World::Impl::control() {
     if (s.arrived)
       order(i, {0, 0, 0});
     else
-      order(i, robot.driver->drive(
-                   {time_s, s.pose, s.twist, s.goal, walls.walls(), robot.perceived, params.control_period_s}));
+      order(i, robot.driver->drive({time_s, s.pose, s.twist, s.goal, walls.walls(), robot.perceived,
+                                    params.control_period_s, s.command,
+                                    robot.params.drive.latency_s + robot.params.drive.lag_s}));
   }
 }
 

@@ -137,6 +137,32 @@ TEST(Simulate, AFilmNeedsFfmpegAndSaysSo) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out" / "frames"));
 }
 
+TEST(Simulate, ExplainsWhyThePlannerDidWhatItDid) {
+  const TemporaryFolder folder;
+  writeFile(folder / "w.yaml",
+            "kind: world\nduration_s: 0.2\nrobots: {robot: {goal_x_m: 9, planner: edwa}}\nplanners: {edwa: {window: "
+            "{v_samples: 3, w_samples: 5}}}\n");
+  auto run = runShell("sidestep-simulate w.yaml --explain -o out", folder.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto rows = linesOf(readFile(folder / "out" / "explain.csv"));
+  EXPECT_EQ(rows[0], "time_s,candidate,chosen,v,w,end_x,end_y,heading,clearance,speed,total,why");
+  ASSERT_EQ(rows.size(), 1u + 4 * 15);  // four cycles of 3 x 5 velocities
+  int chosen = 0, dearer = 0;
+  for (const auto& row : rows) {
+    chosen += row.ends_with(",\"costs more\"") ? 0 : 1;
+    dearer += row.ends_with(",\"costs more\"") ? 1 : 0;
+  }
+  EXPECT_EQ(chosen, 1 + 4);
+  EXPECT_EQ(dearer, 4 * 14);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "timeline.png"));
+  writeFile(folder / "s.yaml", kShort);
+  run = runShell("sidestep-simulate s.yaml --explain -o no", folder.path());
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("--explain: the first robot is driven by straight, which is no local planner"),
+            std::string::npos)
+      << run.err;
+}
+
 TEST(Simulate, WrongScenariosAreOneLineThatSaysWhere) {
   const TemporaryFolder folder;
   writeFile(folder / "w.yaml", "kind: world\nrobots: {robot: {goal_x: 9}}\n");

@@ -139,6 +139,32 @@ TEST(PlannerDriver, WithoutWallsThereIsNoPath) {
   EXPECT_TRUE(told.path.empty());
 }
 
+/// A robot goes 12 m on an empty plane; how long it takes.
+double timeFor12m(const std::string& planner, double lag_s, double latency_s) {
+  WorldParams p;
+  p.robot_names = {"robot"};
+  RobotParams& robot = p.robots["robot"];
+  robot.planner = planner;
+  robot.goal_x_m = 12;
+  robot.drive.lag_s = lag_s;
+  robot.drive.latency_s = latency_s;
+  World world(p, 1, {}, plannerDrivers({}));
+  world.run();
+  EXPECT_TRUE(world.robots()[0].arrived) << planner;
+  return world.time();
+}
+
+TEST(PlannerDriver, ABaseThatIsBehindItsOrdersIsDrivenAboutAsFast) {
+  // Orders that are bounded by how the base moves now would let it speed up by a fraction of what it can only: each
+  // period it is asked for a bit more than it has, and gives a part of that.
+  for (const std::string planner : {"dwa", "edwa", "hrvo"}) {
+    const double prompt = timeFor12m(planner, 0, 0);
+    EXPECT_LT(timeFor12m(planner, 0.15, 0), prompt + 0.6) << planner;
+    EXPECT_LT(timeFor12m(planner, 0, 0.1), prompt + 0.6) << planner;
+    EXPECT_LT(timeFor12m(planner, 0.15, 0.1), prompt + 0.8) << planner;
+  }
+}
+
 TEST(PlannerDriver, OtherNamesAreTheSimpleDriversOrErrors) {
   const auto factory = plannerDrivers({});
   EXPECT_NE(factory("stand", {}), nullptr);
