@@ -17,7 +17,7 @@ struct SimulateOptions {
   std::optional<int> seed;
   std::vector<std::string> planners;  ///< of the first robot, instead of the scenario's; more than one: for snapshots
   std::vector<double> snapshots_s;
-  bool overwrite = false, quiet = false, no_picture = false, video = false, write_config = false;
+  bool overwrite = false, quiet = false, no_picture = false, video = false, explain = false, write_config = false;
 };
 
 /// All that a scenario file may hold.

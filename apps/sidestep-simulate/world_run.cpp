@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/log_writer.h"
+#include "evaluation/plan_explanation.h"
 #include "evaluation/plan_snapshots.h"
 #include "evaluation/planner_driver.h"
 #include "evaluation/timeline_figure.h"
@@ -51,6 +52,19 @@ std::string metricsText(const SimulateConfig& config, const World& world, const 
   return json.dump(2) + "\n";
 }
 
+/// Has the first robot's planner say why it does what it does.
+void askForReasons(const WorldScenario& scenario, World& world, PlanExplanation& explanation) {
+  const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
+  if (!isLocalPlanner(robot.planner))
+    throw ConfigError("--explain: the first robot is driven by " + robot.planner + ", which is no local planner");
+  auto planner = makeLocalPlanner(robot.planner, scenario.planners);
+  planner->explain(true);
+  world.setDriver(0, makePlannerDriver(std::move(planner), robot.limits,
+                                       [&explanation](const PlanInput& in, const PlanOutput& out) {
+                                         explanation.note(in.time_s, out);
+                                       }));
+}
+
 void film(const WorldFigure& figure, const OutputFolder& folder) {
   const std::string frames = folder.file("frames");
   std::filesystem::create_directories(frames);
@@ -79,6 +93,8 @@ void drawSnapshotsOf(const SimulateOptions& options, const SimulateConfig& confi
 ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder) {
   const WorldInputs inputs = readWorldInputs(config.world.world, options.scenario);
   World world(config.world.world, static_cast<uint64_t>(config.seed), inputs, plannerDrivers(config.world.planners));
+  PlanExplanation explanation;
+  if (options.explain) askForReasons(config.world, world, explanation);
   LogWriter log(folder.file("run.rawlog"), commandLine());
   WorldReporter reporter(world);
   WorldRecorder recorder(world);
@@ -102,6 +118,7 @@ ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, 
   log.close();
   folder.writeText("metrics.json", metricsText(config, world, recorder, written));
   recorder.figure().title = options.scenario.substr(options.scenario.find_last_of('/') + 1);
+  if (options.explain) folder.writeText("explain.csv", explanation.csv());
   if (!options.no_picture) {
     drawWorld(recorder.figure(), folder.file("trajectory.png"));
     drawTimeline({recorder.figure().title, {{"", recorder.timeline()}}}, folder.file("timeline.png"));
