@@ -85,7 +85,7 @@ TEST(WayTiming, WhereSomebodyStandsOnTheWayThereIsNoTime) {
 TEST(BandPlanner, WhereEveryBandMeetsSomebodyItLetsThemPass) {
   // a procession as wide as the graph reaches, crossing for 20 s: there is no way but to wait
   std::vector<MovingObstacle> people;
-  for (int i = 0; i < 90; ++i)
+  for (int i = 0; i < 60; ++i)
     for (double x : {3.0, 4.0}) people.push_back(walker(x, 8 - 0.5 * i, 0, 1));
   for (auto& o : people) o.id = static_cast<int>(&o - people.data());
   PlanInput in;

@@ -129,7 +129,7 @@ class FuzzProblem {
   void robot() {
     in_.pose = {random_.uniform(-5, 5), random_.uniform(-5, 5), random_.uniform(-4, 4)};
     auto& l = in_.limits;
-    if (oneIn(4)) l.v_max = random_.uniform(0.2, 3), l.v_reverse = random_.below(2) * random_.uniform(0, l.v_max);
+    if (oneIn(4)) l.v_max = random_.uniform(0.2, 3), l.v_reverse = oneIn(2) ? 0 : random_.uniform(0, l.v_max);
     if (oneIn(4)) l.accel = random_.uniform(0.1, 3), l.brake = random_.uniform(0.1, 3);
     if (oneIn(4)) l.w_max = random_.uniform(0.2, 4), l.turn_accel = random_.uniform(0.1, 4);
     in_.twist = {random_.uniform(-l.v_reverse, l.v_max), 0, random_.uniform(-1, 1) * l.w_max};

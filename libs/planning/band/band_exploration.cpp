@@ -11,7 +11,10 @@ namespace {
 
 constexpr int kPatience = 4;          ///< plans after which a band that touches something makes room for another
 constexpr double kMuchShorter = 0.9;  ///< a fresh band of a known class is tried if it takes less than this part
-constexpr double kTryAgain_s = 0.5;   ///< after having found no way among what moves
+constexpr int kWorkMost = 60000;      ///< states of one search in space and time
+constexpr double kTryAgainMost_s = 4;
+constexpr double kTryAgain_s = 0.25;  ///< after having found no way among what moves
+constexpr double kNarrow_m = 0.03;    ///< least clearance of a drive that is searched
 constexpr double kSpare_m = 0.05;     ///< over the least clearance, for what the optimizer and chords take
 
 }  // namespace
@@ -76,31 +79,44 @@ void BandPlanner::addAlong(std::span<const mrpt::math::TPoint2D> way, const mrpt
   slot->alive = slot->fresh = true;
 }
 
-/// Where every band touches something that moves: ways around and through that wait, let pass or back off, each with
-/// the earliest arrival that is clear; those that stay clear when optimized take the places of bands that touch.
+/// Where every band touches something that moves: a drive searched in space and time, and ways around and through that
+/// wait, let pass or back off. Those that stay clear when optimized take the places of bands that touch.
 void BandPlanner::letPass(const PlanInput& input) {
   const auto clear = [](const BandCandidate& c) { return c.alive && c.whole.clear && !c.result.diverged; };
-  if (!view_.movesInTime() || input.time_s < let_pass_again_ || std::any_of(pool_.begin(), pool_.end(), clear)) return;
-  timed_count_ = 0;
+  if (!view_.movesInTime() || input.time_s < let_pass_again_ || !goalIsFree() ||
+      std::any_of(pool_.begin(), pool_.end(), clear))
+    return;
   const double radius = problem_.robot.radius_m, least = radius + params_.band.distance_least_m + kSpare_m;
+  int placed = searchInTime(input) && place(passing_) ? 1 : 0;
+  timed_count_ = 0;
   timeWays(input, std::max(radius + params_.band.distance_moving_m, least));
-  if (timed_count_ == 0) timeWays(input, least);
+  if (timed_count_ == 0 && placed == 0) timeWays(input, least);
   const auto end = timed_.begin() + static_cast<std::ptrdiff_t>(timed_count_);
   std::sort(timed_.begin(), end, [](const auto& a, const auto& b) { return a.band.back().t < b.band.back().t; });
-  int placed = 0;
   for (auto t = timed_.begin(); t != end && placed < params_.exploration.classes_max; ++t) {
     if (input.out_of_time && input.out_of_time()) break;
-    if (!becomesClear(input, *t)) continue;
-    const auto worse = [](const BandCandidate& a, const BandCandidate& b) {
-      const auto rank = [](const BandCandidate& c) { return !c.alive ? -1 : c.whole.clear ? 1e9 : c.whole.contact_s; };
-      return rank(a) < rank(b);
-    };
-    BandCandidate& slot = *std::min_element(pool_.begin(), pool_.end(), worse);
-    if (slot.alive && clear(slot)) break;
-    std::swap(slot, passing_);
-    ++placed;
+    if (becomesClear(input, *t) && place(passing_)) ++placed;
   }
-  if (placed == 0) let_pass_again_ = input.time_s + kTryAgain_s;
+  // each time in vain doubles the time until the next
+  let_pass_wait_s_ = placed > 0 ? kTryAgain_s : std::min(2 * let_pass_wait_s_, kTryAgainMost_s);
+  let_pass_again_ = input.time_s + let_pass_wait_s_;
+}
+
+/// Whether nothing stands on the goal.
+bool BandPlanner::goalIsFree() const {
+  bool free = true;
+  view_.near(goal_.pose.x, goal_.pose.y, -1, problem_.robot.radius_m, [&](const Proximity&) { free = false; });
+  return free;
+}
+
+/// Puts a clear band in the place of none, or of the one that touches something first; @return whether there is any
+bool BandPlanner::place(BandCandidate& c) {
+  const auto rank = [](const BandCandidate& b) { return !b.alive ? -1 : b.whole.clear ? 1e9 : b.whole.contact_s; };
+  BandCandidate& slot = *std::min_element(
+      pool_.begin(), pool_.end(), [&](const BandCandidate& a, const BandCandidate& b) { return rank(a) < rank(b); });
+  if (slot.alive && slot.whole.clear) return false;
+  std::swap(slot, c);
+  return true;
 }
 
 /// Along the ways that the standing obstacles leave, the global path, and bows to both sides.
@@ -138,6 +154,46 @@ void BandPlanner::timeWay(std::span<const mrpt::math::TPoint2D> way, const mrpt:
   if (!maker_.alongWhenClear(way, spec, query, timed.band)) return;
   timed.beside = beside;
   ++timed_count_;
+}
+
+/// Whether a drive was found that is clear when optimized; it is in `passing_` then. One raster of states misses drives
+/// that another one finds.
+bool BandPlanner::searchInTime(const PlanInput& input) {
+  SpaceTimeSearch::Query query;
+  query.start = input.pose;
+  query.goal = {goal_.pose.x, goal_.pose.y};
+  query.ends = problem_.ends;
+  query.limits = input.limits;
+  query.keep_out_m = problem_.robot.radius_m + kNarrow_m;
+  query.horizon_s = params_.view.prediction_horizon_s;
+  query.states_max = params_.exploration.states_max;
+  query.bounds = bounds_;
+  query.obstacles = &view_;
+  query.stop = &input.out_of_time;
+  constexpr int kTrials = 8;
+  int trials = 0;
+  TimedBand& timed = timed_[0];
+  timed.beside = query.goal;
+  const auto accept = [&](const Band& band) {
+    const auto n = static_cast<int>(std::lround(band.back().t / params_.band.interval_s));
+    if (n > params_.band.poses_max || ++trials > kTrials) return false;
+    resample(band, 0, std::max(n, 3), timed.band);
+    return becomesClear(input, timed);
+  };
+  struct Raster {
+    double cell_m;
+    int headings;
+  };
+  int work = kWorkMost;
+  for (const Raster& raster : {Raster{0.1, 24}, Raster{0.07, 36}, Raster{0.15, 20}}) {
+    query.work_max = work;
+    query.cell_m = raster.cell_m;
+    query.headings = raster.headings;
+    if (search_.search(query, fresh_, accept)) return true;
+    work -= static_cast<int>(search_.work());
+    if (work <= 0 || trials > kTrials) break;
+  }
+  return false;
 }
 
 /// Optimizes a band, into `passing_`; where the optimizer drives it into something, the band as it was.

@@ -56,6 +56,7 @@ void BandPlanner::reset() {
   last_turn_ = 0;
   steady_until_ = -1e9;
   let_pass_again_ = -1e9;
+  let_pass_wait_s_ = 0.25;
 }
 
 const BandCandidate* BandPlanner::chosen() const {
@@ -111,11 +112,11 @@ void BandPlanner::look(const PlanInput& input) {
   frame_ = GoalFrame(p.x, p.y, g.x, g.y);
   const double side = std::max(params_.exploration.detour_least_m, params_.exploration.detour_share * frame_.length);
   const double margin = side + kBeside_m;
-  const GridBounds bounds{std::min(p.x, g.x) - margin, std::min(p.y, g.y) - margin, std::max(p.x, g.x) + margin,
-                          std::max(p.y, g.y) + margin};
+  bounds_ = {std::min(p.x, g.x) - margin, std::min(p.y, g.y) - margin, std::max(p.x, g.x) + margin,
+             std::max(p.y, g.y) + margin};
   problem_.robot = Footprint(params_.footprint, input.limits.radius_m);
   reach_m_ = problem_.robot.radius_m + std::max({params_.band.distance_m, params_.band.distance_moving_m, 0.25});
-  view_.build({input.points, input.walls, input.moving, input.field}, params_.view.movingView(), bounds, reach_m_);
+  view_.build({input.points, input.walls, input.moving, input.field}, params_.view.movingView(), bounds_, reach_m_);
   islands_.find(input.field, frame_, side, problem_.robot.radius_m);
   problem_.limits = input.limits;
   problem_.ends = {input.twist.vx, input.twist.omega, goal_.is_goal};

@@ -11,6 +11,7 @@
 #include "planning/band/gap_graph.h"
 #include "planning/band/local_goal.h"
 #include "planning/band/signature.h"
+#include "planning/band/space_time_search.h"
 #include "planning/band/trajectory_check.h"
 #include "planning/local_planner.h"
 #include "planning/velocity/hrvo.h"
@@ -21,7 +22,7 @@ namespace sidestep {
 struct BandViewParams {
   std::string obstacles = "now";   ///< now: TEB, PTEB; as_printed, in_time: ETEB
   double predicted_after_s = 1.0;  ///< as_printed: how far ahead the one predicted position lies
-  double prediction_horizon_s = 12;
+  double prediction_horizon_s = 30;
   double sigmas = 0.5;
   double widening_max_m = 0.15;
   bool heading_of_hrvo = false;  ///< PTEB: candidates pay for leaving the direction of the HRVO model (4.10)
@@ -135,6 +136,9 @@ class BandPlanner final : public LocalPlanner {
   void timeWays(const PlanInput& input, double keep_out);
   void timeWay(std::span<const mrpt::math::TPoint2D> way, const mrpt::math::TPoint2D& beside, double keep_out,
                const PlanInput& input);
+  bool searchInTime(const PlanInput& input);
+  bool place(BandCandidate& c);
+  bool goalIsFree() const;
   bool becomesClear(const PlanInput& input, const TimedBand& timed);
   void tryQuickest(const PlanInput& input, Worker& worker, BandCandidate& c);
   void judge(const PlanInput& input);
@@ -154,6 +158,8 @@ class BandPlanner final : public LocalPlanner {
   ObstacleView view_;
   GapGraph graph_;
   FieldIslands islands_;
+  SpaceTimeSearch search_;
+  GridBounds bounds_;
   BandMaker maker_;
   Evasion evasion_;
   Hrvo hrvo_;
@@ -164,7 +170,7 @@ class BandPlanner final : public LocalPlanner {
   size_t timed_count_ = 0;
   std::vector<mrpt::math::TPoint2D> bow_;
   BandCandidate passing_;
-  double let_pass_again_ = -1e9;  ///< when it is worth trying again
+  double let_pass_again_ = -1e9, let_pass_wait_s_ = 0.25;  ///< when it is worth trying again
   std::vector<size_t> order_;
   std::vector<TrajectoryPoint> driven_;
   LocalGoal goal_;

@@ -19,6 +19,8 @@ struct ExplorationParams {
   double detour_least_m = 2.5;  ///< and at least
   double narrow_weight = 12;    ///< cost of a gap too narrow for the wished clearance, 1/m^2 per metre of way
 
+  int states_max = 1000;  ///< of a step of the search in space and time
+
   void visit(ParamVisitor& v);
 };
 

@@ -80,17 +80,20 @@ CheckResult checkStart(const Band& band, const BandEnds& ends, const RobotLimits
 }
 
 CheckResult checkWhole(const Band& band, const Footprint& robot, const ObstacleView& obstacles) {
-  constexpr int kParts = 3;
+  constexpr int kPartsLeast = 3;
+  constexpr double kStep_s = 0.1;       // between looks, where something moves
   constexpr double kBetween_m = 0.015;  // what chords and coarse steps may hide
   CheckResult out;
   for (size_t k = 0; k + 1 < band.size(); ++k) {
     const BandPose& a = band[k];
     const BandPose& b = band[k + 1];
+    const int parts = obstacles.movesInTime() ? std::clamp(static_cast<int>((b.t - a.t) / kStep_s) + 1, kPartsLeast, 20)
+                                              : kPartsLeast;
     const bool turns = !robot.isDisc() && std::abs(b.theta - a.theta) > 0.02;
-    const bool short_way = std::abs(b.x - a.x) + std::abs(b.y - a.y) < 0.02 && !turns;
-    for (int i = 1; i <= kParts; ++i) {
-      if (short_way && i < kParts) continue;
-      const double share = static_cast<double>(i) / kParts, t = a.t + share * (b.t - a.t);
+    const bool short_way = std::abs(b.x - a.x) + std::abs(b.y - a.y) < 0.02 && !turns && !obstacles.movesInTime();
+    for (int i = 1; i <= parts; ++i) {
+      if (short_way && i < parts) continue;
+      const double share = static_cast<double>(i) / parts, t = a.t + share * (b.t - a.t);
       const double x = a.x + share * (b.x - a.x), y = a.y + share * (b.y - a.y);
       const double theta = a.theta + share * (b.theta - a.theta);
       note(nearestTo(x, y, theta, t, robot, obstacles), t, kBetween_m, out);

@@ -58,7 +58,7 @@ bool WayTiming::search(std::span<const mrpt::math::TPoint2D> points, int start, 
     const double t = query.delay_s + step * kStep_s;
     markClear(points, query, t + kStep_s / 2, middles_[static_cast<size_t>(step)]);
     markClear(points, query, t + kStep_s, end_);
-    spread(step);
+    if (!spread(step)) return false;
     if (!arrived(step + 1, query.stops)) continue;
     traceBack(step + 1);
     return true;
@@ -124,7 +124,9 @@ bool WayTiming::shifted(const uint64_t* src, int by, const uint64_t* allowed, ui
   return any != 0;
 }
 
-void WayTiming::spread(int step) {
+/// @return whether the robot can be anywhere
+bool WayTiming::spread(int step) {
+  bool anywhere = false;
   const auto& middle = middles_[static_cast<size_t>(step)];
   for (int from = levels_.lowest; from <= levels_.most; ++from)
     for (int to = std::max(from - 1, levels_.lowest); to <= std::min(from + 1, levels_.most); ++to) {
@@ -133,8 +135,10 @@ void WayTiming::spread(int step) {
       const uint64_t* slow = &slow_enough_[static_cast<size_t>((to - levels_.lowest) * words_)];
       allowed_.assign(slow, slow + words_);
       for (size_t w = 0; w < allowed_.size(); ++w) allowed_[w] &= end_[w];
-      shifted(half_.data(), wholeWay(from, to) - halfWay(from, to), allowed_.data(), reached(step + 1, to));
+      const int rest = wholeWay(from, to) - halfWay(from, to);
+      anywhere |= shifted(half_.data(), rest, allowed_.data(), reached(step + 1, to));
     }
+  return anywhere;
 }
 
 bool WayTiming::arrived(int step, bool stops) {

@@ -59,7 +59,7 @@ class WayTiming {
   void markClear(std::span<const mrpt::math::TPoint2D> points, const Query& query, double t,
                  std::vector<uint64_t>& out);
   bool standsClear(const mrpt::math::TPoint2D& at, const Query& query) const;
-  void spread(int step);
+  bool spread(int step);
   bool arrived(int step, bool stops);
   void traceBack(int step);
   /// dst |= src shifted by `by` cells, where `allowed`; @return whether any bit was set
