@@ -57,9 +57,9 @@ void askForReasons(const WorldScenario& scenario, World& world, PlanExplanation&
   const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
   if (!isLocalPlanner(robot.planner))
     throw ConfigError("--explain: the first robot is driven by " + robot.planner + ", which is no local planner");
-  auto planner = makeLocalPlanner(robot.planner, scenario.planners);
+  auto planner = makeLocalPlanner(robot.planner, scenario.planners.planners);
   planner->explain(true);
-  world.setDriver(0, makePlannerDriver(std::move(planner), robot.limits,
+  world.setDriver(0, makePlannerDriver(std::move(planner), robot.limits, scenario.planners,
                                        [&explanation](const PlanInput& in, const PlanOutput& out) {
                                          explanation.note(in.time_s, out);
                                        }));
