@@ -35,7 +35,7 @@ struct SelectionParams {
   double hysteresis = 0.1;          ///< share by which another class must be cheaper than the last one
   double clearance_share = 0.05;    ///< of the band's clearance cost that counts in the choice (2.40)
   double delta_hrvo = 15;           ///< of (4.10); table 4.4 has 0.5, for costs of another size
-  bool hrvo_speed = false;          ///< PTEB: no faster than the HRVO model
+  bool hrvo_speed = true;           ///< PTEB: no faster than the HRVO model
   double goal_tolerance_m = 0.1;    ///< the goal is reached
   double goal_tolerance_rad = 0.1;  ///< where its heading matters
   double horizon_m = 8;             ///< of a band along a global path
