@@ -15,9 +15,9 @@ namespace sidestep {
 struct SimulateOptions {
   std::string scenario, output = "out";
   std::optional<int> seed;
-  bool overwrite = false, quiet = false, no_picture = false, video = false, explain = false, write_config = false;
   std::vector<std::string> planners;  ///< of the first robot, instead of the scenario's; more than one: for snapshots
   std::vector<double> snapshots_s;
+  bool overwrite = false, quiet = false, no_picture = false, video = false, explain = false, write_config = false;
 };
 
 /// All that a scenario file may hold.

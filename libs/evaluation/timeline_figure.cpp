@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/params.h"
+#include "evaluation/collision_index.h"
 #include "evaluation/gnuplot.h"
 
 namespace sidestep {
@@ -13,7 +14,8 @@ namespace {
 std::string block(const TimelineFigure::Run& run, size_t number) {
   std::string out = "$r" + std::to_string(number) + " << EOD\n";
   for (const TimelineSample& s : run.samples) {
-    for (const double value : {s.time_s, deltaMin(s.clearance_m), s.v, s.w}) out += shortestNumber(value) + " ";
+    for (const double value : {s.time_s, deltaMin(s.clearance_m), s.v, s.w, s.collision_index})
+      out += shortestNumber(value) + " ";
     out += "\n";
   }
   return out + "EOD\n";
@@ -40,13 +42,18 @@ void drawTimeline(const TimelineFigure& figure, const std::string& png_file) {
   }
   const bool several = figure.runs.size() > 1;
   script +=
-      "set terminal pngcairo noenhanced size 1000,900 font 'sans,12'\nset encoding utf8\nset output " +
+      "set terminal pngcairo noenhanced size 1000,1150 font 'sans,12'\nset encoding utf8\nset output " +
       gnuplotQuoted(png_file) + "\nset border 3 lc rgb '#404040'\nset tics nomirror out\n" +
       "set grid back lt 1 lc rgb '#e8e8e8'\nset lmargin 10\nset rmargin 3\nset xrange [0:" + shortestNumber(end_s) +
-      "]\nset multiplot layout 3,1 title " + gnuplotQuoted(figure.title) +
+      "]\nset multiplot layout 4,1 title " + gnuplotQuoted(figure.title) +
       " noenhanced\nset key outside above center horizontal noenhanced samplen 2\n";
   script += panel(figure, "set ylabel 'δ_min (4.6)'\nset yrange [0:1.05]\n", 2, several);
-  script += panel(figure, "unset key\nset ylabel 'speed [m/s]'\nset yrange [*<0:*]\n", 3, false);
+  script += panel(figure,
+                  "unset key\nset ylabel 'collision index (4.11)'\nset arrow 1 from graph 0, first " +
+                      shortestNumber(kCollisionIndexThreshold) + " to graph 1, first " +
+                      shortestNumber(kCollisionIndexThreshold) + " nohead dt 2 lw 1.5 lc rgb '#d62728'\n",
+                  5, false);
+  script += panel(figure, "unset arrow 1\nset ylabel 'speed [m/s]'\nset yrange [*<0:*]\n", 3, false);
   script += panel(figure, "set ylabel 'turn rate [rad/s]'\nset xlabel 'time [s]'\nset yrange [*:*]\n", 4, false);
   if (!figure.runs.empty()) runGnuplot(script + "unset multiplot\nunset output\n", png_file);
 }

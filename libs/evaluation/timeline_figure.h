@@ -8,7 +8,7 @@
 
 namespace sidestep {
 
-/// The first robot's runs over time, as figures 4.6 and 4.7 of the dissertation show them.
+/// The first robot's runs over time, as figures 4.6, 4.7, 4.15 and 4.20 of the dissertation show them.
 struct TimelineFigure {
   struct Run {
     std::string name;  ///< for the key; with one run only there is none
@@ -18,7 +18,8 @@ struct TimelineFigure {
   std::vector<Run> runs;
 };
 
-/// Draws delta_min(t) of (4.6), speed and turn rate, one below the other, all runs in each.
+/// Draws delta_min(t) of (4.6), the collision index (4.11) with its threshold, speed and turn rate, one below the
+/// other, all runs in each.
 /// @throws Error (internal) with gnuplot's message if it cannot be run.
 void drawTimeline(const TimelineFigure& figure, const std::string& png_file);
 

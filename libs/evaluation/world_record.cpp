@@ -28,7 +28,7 @@ WorldRecorder::WorldRecorder(const World& world) : world_(world) {
   for (size_t i = 0; i < world.robots().size(); ++i)
     figure_.paths.push_back({world.params().robot_names[i], world.robots()[i].radius_m, i == 0, {}});
   for (const Person& p : world.people()) figure_.paths.push_back({std::to_string(p.id), p.radius_m, false, {}});
-  largest_index_ = collisionIndexNow();
+  largest_index_ = index_ = collisionIndexNow();
   notePlaces();
 }
 
@@ -36,6 +36,7 @@ void WorldRecorder::note() {
   clearance_m_ = std::min(clearance_m_, world_.contacts(0).clearance());
   const double index = collisionIndexNow(), step_s = world_.params().step_s;
   largest_index_ = std::max(largest_index_, index);
+  index_ = std::max(index_, index);
   if (index > kCollisionIndexThreshold) above_s_ += step_s;
   if (std::abs(world_.robots()[0].twist.vx) < kStanding) standing_s_ += step_s;
   notePlaces();
@@ -67,7 +68,8 @@ void WorldRecorder::notePlaces() {
   for (const Person& p : world_.people())
     figure_.paths[k++].places.push_back(p.present ? p.position : TPoint2D(kNowhere, kNowhere));
   const RobotState& robot = world_.robots()[0];
-  timeline_.push_back({world_.time(), clearance_m_, robot.twist.vx, robot.twist.omega});
+  timeline_.push_back({world_.time(), clearance_m_, robot.twist.vx, robot.twist.omega, index_});
+  index_ = 0;
   clearance_m_ = std::numeric_limits<double>::infinity();
 }
 

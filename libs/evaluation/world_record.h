@@ -15,6 +15,7 @@ struct TimelineSample {
   double clearance_m =
       std::numeric_limits<double>::infinity();  ///< to people and robots, least since the sample before
   double v = 0, w = 0;                          ///< over the ground [m/s], [rad/s]
+  double collision_index = 0;                   ///< (4.11), largest since the sample before
 };
 
 /// delta_min(t) of (4.6): 1 at contact, towards 0 far away.
@@ -48,7 +49,7 @@ class WorldRecorder {
   WorldFigure figure_;
   std::vector<TimelineSample> timeline_;
   double next_s_ = 0, clearance_m_ = std::numeric_limits<double>::infinity();
-  double largest_index_ = 0, above_s_ = 0, standing_s_ = 0;
+  double largest_index_ = 0, index_ = 0, above_s_ = 0, standing_s_ = 0;
 };
 
 }  // namespace sidestep

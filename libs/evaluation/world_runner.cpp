@@ -9,10 +9,12 @@
 #include <map>
 
 #include "core/errors.h"
+#include "core/random.h"
 #include "evaluation/collision_index.h"
 #include "evaluation/data_path.h"
 #include "evaluation/overlay_yaml.h"
 #include "evaluation/planner_driver.h"
+#include "evaluation/study.h"
 #include "evaluation/timeline_figure.h"
 #include "evaluation/world_record.h"
 #include "evaluation/world_scenario.h"
@@ -23,7 +25,7 @@ namespace {
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 struct ScenarioEntry {
-  std::string file, set;
+  std::string file, set, goals = "all";
   // made by prepare()
   std::vector<WorldScenario> worlds;                       ///< by algorithm
   std::vector<std::shared_ptr<const WorldInputs>> inputs;  ///< by algorithm
@@ -68,6 +70,7 @@ const Axis kAxes[] = {
      [](WorldParams& p, double x) {
        for (const auto& name : p.people_names) p.people[name].speed = x;
      }},
+    {"robot_room_m", [](WorldParams& p, double x) { p.social_force.robot_room_m = x; }},
     {"latency_s", [](WorldParams& p, double x) { firstRobot(p).drive.latency_s = x; }},
     {"position_sd_m", [](WorldParams& p, double x) { firstRobot(p).perception.position_sd_m = x; }},
     {"velocity_sd", [](WorldParams& p, double x) { firstRobot(p).perception.velocity_sd = x; }},
@@ -81,6 +84,9 @@ class WorldRunner final : public StudyRunner {
     if (scenarios_.size() <= index) scenarios_.resize(index + 1);
     v.text("file", scenarios_[index].file, "a world, a YAML of sidestep-simulate; relative to the study's folder");
     v.overlay("set", scenarios_[index].set, "what is changed in that world");
+    v.choice("goals", scenarios_[index].goals, {"all", "one"},
+             "of a first robot with several goals: all of them; or the one that the run's seed says, from the place of "
+             "the one before it (the first one from the start), facing it");
   }
   void visitAlgorithm(size_t index, ParamVisitor& v) override {
     if (algorithms_.size() <= index) algorithms_.resize(index + 1);
@@ -92,9 +98,10 @@ class WorldRunner final : public StudyRunner {
     return out;
   }
   std::vector<std::string> metrics() const override {
-    return {"success",         "arrived", "collision",   "robot_into_person", "person_into_robot", "robot_into_robot",
-            "robot_into_wall", "time",    "path_length", "average_velocity",  "min_clearance",     "min_wall_clearance",
-            "delta_min",       "ci_max",  "ci_exceeded", "ci_exceeded_time",  "standing_time",     "braked"};
+    return {"success",           "arrived",          "goals_reached",      "collision", "robot_into_person",
+            "person_into_robot", "robot_into_robot", "robot_into_wall",    "time",      "path_length",
+            "average_velocity",  "min_clearance",    "min_wall_clearance", "delta_min", "ci_max",
+            "ci_exceeded",       "ci_exceeded_time", "standing_time",      "braked"};
   }
   void prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
                const std::vector<std::string>& algorithms, bool load_data) override;
@@ -197,10 +204,22 @@ struct WatchedRun {
   size_t plans = 0, braked = 0;
 };
 
+/// Leaves the robot one of its goals.
+void keepOneGoal(RobotParams& robot, uint64_t seed) {
+  if (robot.goals.size() < 2) return;
+  const auto n = static_cast<double>(robot.goals.size());
+  const auto k = static_cast<size_t>(std::min(n * Random(seed, textHash("goal")).uniform(), n - 1));
+  if (k > 0) robot.x_m = robot.goals[k - 1][0], robot.y_m = robot.goals[k - 1][1];
+  robot.goals = {robot.goals[k]};
+  robot.yaw = std::atan2(robot.goals[0][1] - robot.y_m, robot.goals[0][0] - robot.x_m);
+}
+
 WatchedRun runOf(const ScenarioEntry& s, const std::string& axis, const StudyPlace& place) {
   const WorldScenario& base = s.worlds[place.algorithm];
-  if (!place.x) return WatchedRun(base, *s.inputs[place.algorithm], place.world_seed);
+  if (!place.x && s.goals == "all") return WatchedRun(base, *s.inputs[place.algorithm], place.world_seed);
   WorldScenario varied = base;
+  if (s.goals == "one") keepOneGoal(firstRobot(varied.world), place.world_seed);
+  if (!place.x) return WatchedRun(varied, *s.inputs[place.algorithm], place.world_seed);
   for (const Axis& a : kAxes)
     if (axis == a.name) a.set(varied.world, *place.x);
   return WatchedRun(varied, *s.inputs[place.algorithm], place.world_seed);
@@ -215,6 +234,7 @@ std::vector<double> WorldRunner::run(const StudyPlace& place) const {
   const auto hits = [&](const char* kind) { return static_cast<double>(s.contacts.at(kind)); };
   return {s.success ? 1.0 : 0.0,
           s.arrived ? 1.0 : 0.0,
+          static_cast<double>(s.goals_reached),
           s.collision ? 1.0 : 0.0,
           hits("robot_into_person"),
           hits("person_into_robot"),

@@ -259,11 +259,10 @@ double BandPlanner::angleToAdvice(const PlanInput& input, const BandCandidate& c
   return std::abs(std::remainder(std::atan2(advice_->y, advice_->x) - theta_p, 2 * M_PI));
 }
 
-/// The same curve, no faster than the model would go in the direction in which the robot looks.
-mrpt::math::TTwist2D BandPlanner::slowedByAdvice(const PlanInput& input, const TrajectorySpeed& wanted) const {
+/// The same curve, no faster than the model would go.
+mrpt::math::TTwist2D BandPlanner::slowedByAdvice(const TrajectorySpeed& wanted) const {
   if (!advice_ || !params_.selection.hrvo_speed || wanted.v <= 0) return {wanted.v, 0, wanted.w};
-  const double along = advice_->x * std::cos(input.pose.phi) + advice_->y * std::sin(input.pose.phi);
-  const double v = std::min(wanted.v, std::max(along, 0.0));
+  const double v = std::min(wanted.v, std::hypot(advice_->x, advice_->y));
   return {v, 0, wanted.w * (wanted.v > kStanding ? v / wanted.v : 1)};
 }
 
@@ -294,7 +293,7 @@ void BandPlanner::choose(const PlanInput& input, PlanOutput& out) {
       steady_until_ = input.time_s + params_.selection.oscillation_s;
     }
     const bool soon = !c.whole.clear && c.whole.obstacle >= 0 && c.whole.contact_s < params_.evasion.before_s;
-    if (soon && evade(input, true, out)) return;
+    if (view_.movesInTime() && soon && evade(input, true, out)) return;
     follow(input, c, out);
     return;
   }
@@ -311,7 +310,7 @@ void BandPlanner::choose(const PlanInput& input, PlanOutput& out) {
 
 void BandPlanner::follow(const PlanInput& input, BandCandidate& c, PlanOutput& out) {
   const auto speed = speedAt(c.band, c.ends, input.period_s);
-  const auto slowed = slowedByAdvice(input, speed);
+  const auto slowed = slowedByAdvice(speed);
   out.command = allowedCommand(slowed.vx, slowed.omega, input.twist, input.limits, input.period_s);
   out.status = Status::kMoving;
   for (size_t k = 0; k < c.band.size(); ++k) {

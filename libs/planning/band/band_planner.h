@@ -35,7 +35,7 @@ struct SelectionParams {
   double hysteresis = 0.1;          ///< share by which another class must be cheaper than the last one
   double clearance_share = 0.05;    ///< of the band's clearance cost that counts in the choice (2.40)
   double delta_hrvo = 15;           ///< of (4.10); table 4.4 has 0.5, for costs of another size
-  bool hrvo_speed = true;           ///< PTEB: no faster than the HRVO model along the robot's own heading
+  bool hrvo_speed = true;           ///< PTEB: no faster than the HRVO model
   double goal_tolerance_m = 0.1;    ///< the goal is reached
   double goal_tolerance_rad = 0.1;  ///< where its heading matters
   double horizon_m = 8;             ///< of a band along a global path
@@ -145,7 +145,7 @@ class BandPlanner final : public LocalPlanner {
   void dropTwins();
   std::optional<mrpt::math::TPoint2D> hrvoVelocity(const PlanInput& input);
   double angleToAdvice(const PlanInput& input, const BandCandidate& c) const;
-  mrpt::math::TTwist2D slowedByAdvice(const PlanInput& input, const TrajectorySpeed& wanted) const;
+  mrpt::math::TTwist2D slowedByAdvice(const TrajectorySpeed& wanted) const;
   void choose(const PlanInput& input, PlanOutput& out);
   void follow(const PlanInput& input, BandCandidate& c, PlanOutput& out);
   bool evade(const PlanInput& input, bool only_if_clear, PlanOutput& out);
