@@ -143,7 +143,7 @@ bool drawConsistency(const ConsistencyFigure& figure, const std::string& png_fil
   script += "set terminal pngcairo noenhanced size 1100," + std::to_string(60 + 290 * panels.size()) +
             " font 'sans,11'\nset encoding utf8\nset output " + gnuplotQuoted(png_file) + "\nset multiplot layout " +
             count + ",1 title " + gnuplotQuoted(figure.title) +
-            " noenhanced font ',14'\nset border 3 lc rgb '#404040'\nset tics nomirror out\nset logscale y 10\n"
+            " noenhanced font ',14'\nset border 3 lc rgb '#404040'\nset tics nomirror out\nset logscale y 10\nset lmargin 9\n"
             "set grid ytics back lt 1 lc rgb '#e4e4e4' lw 1\nset format y '%g'\n"
             "set key outside right top vertical Left reverse noenhanced samplen 2 spacing 1.2 width 1\n";
   for (size_t i = 0; i < panels.size(); ++i) script += panelScript(panels[i], i, i + 1 == panels.size());

@@ -115,49 +115,76 @@ void drawBars(const Study& study, const std::string& metric, const std::string& 
              png);
 }
 
-/// Rows on an axis: a curve an algorithm, or, where the group holds several scenarios, one each.
+/// What the panels of a figure with an axis have in common.
+struct CurveRange {
+  std::set<double> xs;
+  double low = INFINITY, high = 0, least = INFINITY, most = 0;
+
+  CurveRange(const Study& study, const Lines& lines) {
+    for (const auto* l : lines) {
+      const double x = *study.rows()[l->row].x;
+      xs.insert(x);
+      low = std::min(low, x), high = std::max(high, x);
+      if (l->summary.n > 0 && l->summary.ci_low > 0) least = std::min(least, l->summary.ci_low);
+      if (l->summary.n > 0) most = std::max(most, l->summary.ci_high);
+    }
+  }
+  std::string tics() const {
+    std::string out;
+    for (const double x : xs) out += (out.empty() ? "" : ", ") + shortestNumber(x);
+    return out;
+  }
+};
+
+/// One scenario's curves with their bands, a curve an algorithm. `blocks` takes the data.
+std::string curvePanel(const Study& study, size_t scenario, const Lines& lines, std::string& blocks) {
+  std::map<size_t, std::string> data;  // by algorithm
+  for (const auto* l : lines)
+    if (study.rows()[l->row].scenario == scenario && std::isfinite(l->summary.mean))
+      addNumbers(data[l->algorithm], {*study.rows()[l->row].x, l->summary.mean, l->summary.ci_low, l->summary.ci_high});
+  std::string bands, curves;
+  for (const auto& [algorithm, text] : data) {
+    const std::string block = "$c" + std::to_string(scenario) + "_" + std::to_string(algorithm);
+    blocks += block + " << EOD\n";
+    blocks += text + "EOD\n";
+    bands += block + " using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '" +
+             figureColour(algorithm) + "' notitle, ";
+    curves += block + " using 1:2 with linespoints lw 2 pt 7 ps 0.7 lc rgb '" + figureColour(algorithm) + "' title " +
+              gnuplotQuoted(study.algorithms()[algorithm]) + ", ";
+  }
+  if (curves.empty()) return "";
+  curves.resize(curves.size() - 2);
+  return "plot " + bands + curves + "\n";
+}
+
+/// Rows on an axis: a panel a scenario of the group, side by side, with the same scales.
 void drawCurves(const Study& study, const std::string& metric, const std::string& what, const std::string& group,
                 const Lines& lines, const std::string& png) {
-  std::map<std::pair<size_t, size_t>, std::string> data;  // by entry and algorithm
-  std::map<size_t, std::string> entries;
+  const CurveRange range(study, lines);
+  std::vector<std::pair<size_t, std::string>> entries;
   for (const auto* l : lines) {
     const auto& row = study.rows()[l->row];
-    entries[row.scenario] = row.name.substr(0, row.name.rfind('@'));
-    if (std::isfinite(l->summary.mean))
-      addNumbers(data[{row.scenario, l->algorithm}], {*row.x, l->summary.mean, l->summary.ci_low, l->summary.ci_high});
+    if (entries.empty() || entries.back().first != row.scenario)
+      entries.emplace_back(row.scenario, row.name.substr(0, row.name.rfind('@')));
   }
-  std::string blocks, bands, curves, tics;
-  std::set<double> tic_values;
-  double low = INFINITY, high = 0, least = INFINITY, most = 0;
-  for (const auto* l : lines) {
-    const double x = *study.rows()[l->row].x;
-    low = std::min(low, x), high = std::max(high, x);
-    if (l->summary.n > 0) least = std::min(least, l->summary.ci_low), most = std::max(most, l->summary.ci_high);
-    tic_values.insert(x);
+  std::string blocks, panels;
+  for (const auto& [scenario, name] : entries) {
+    const std::string plot = curvePanel(study, scenario, lines, blocks);
+    if (!plot.empty()) panels += "set title " + gnuplotQuoted(name) + " noenhanced font ',12'\n" + plot;
   }
-  for (const double x : tic_values) {
-    if (!tics.empty()) tics += ", ";
-    tics += shortestNumber(x);
-  }
-  const bool log_x = low > 0;
-  size_t number = 0;
-  for (const auto& [key, text] : data) {
-    const std::string block = "$c" + std::to_string(number);
-    const std::string title = study.algorithms()[key.second] + (entries.size() > 1 ? ", " + entries[key.first] : "");
-    blocks += block + " << EOD\n" + text + "EOD\n";
-    bands += block + " using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '" +
-             figureColour(number) + "' notitle, ";
-    curves += block + " using 1:2 with linespoints lw 2 pt 7 ps 0.7 lc rgb '" + figureColour(number) + "' title " +
-              gnuplotQuoted(title) + ", ";
-    ++number;
-  }
-  if (curves.empty()) return;
-  curves.resize(curves.size() - 2);
-  runGnuplot(blocks + head(group + ": " + axisTitle(metric) + ", " + what + " and 95 % band", png, 900, 600) +
-                 (wantsLogarithm(lines) ? logarithm("y") + rangeAround("y", least, most) : "set yrange [0:*]\n") +
-                 (log_x ? logarithm("x") + rangeAround("x", low, high) : "") + "set xtics (" + tics + ")\nset xlabel " +
-                 gnuplotQuoted(axisTitle(study.rows()[lines.front()->row].axis)) + " offset 0,0.6\nset ylabel " +
-                 gnuplotQuoted(axisTitle(metric)) + "\nplot " + bands + curves + "\nunset output\n",
+  if (panels.empty()) return;
+  const int columns = std::min<int>(3, static_cast<int>(entries.size()));
+  const int rows = (static_cast<int>(entries.size()) + columns - 1) / columns;
+  const std::string title = group + ": " + axisTitle(metric) + ", " + what + " and 95 % band";
+  const std::string scales =
+      (wantsLogarithm(lines) ? logarithm("y") + rangeAround("y", range.least, range.most)
+                             : "set yrange [0:" + shortestNumber(1.05 * std::max(range.most, 1e-9)) + "]\n") +
+      (range.low > 0 ? logarithm("x") + rangeAround("x", range.low, range.high) : "");
+  runGnuplot(blocks + head(title, png, columns == 1 ? 900 : 520 * columns, 80 + 480 * rows) + scales + "set xtics (" +
+                 range.tics() + ")\nset xlabel " + gnuplotQuoted(axisTitle(study.rows()[lines.front()->row].axis)) +
+                 " offset 0,0.6\nset ylabel " + gnuplotQuoted(axisTitle(metric)) + "\nset multiplot layout " +
+                 std::to_string(rows) + "," + std::to_string(columns) + " title " + gnuplotQuoted(title) +
+                 " noenhanced font ',13'\n" + panels + "unset multiplot\nunset output\n",
              png);
 }
 

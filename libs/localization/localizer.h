@@ -93,6 +93,8 @@ class Localizer {
   void position(int stream, double time_s, double x, double y);
   /// What an IMU says, as plain numbers: yaw [rad], yaw rate [rad/s].
   void heading(int stream, double time_s, double heading_rad);
+  /// A fix and a heading of one instant as one measurement (3.14); once the robot's start is known.
+  void positionHeading(int stream, double time_s, double x, double y, double heading_rad);
   void yawRate(int stream, double time_s, double rate);
   void beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o);
   void laser(int stream, double time_s, const mrpt::obs::CObservation2DRangeScan& o);
