@@ -85,7 +85,8 @@ class Run {
   std::vector<std::string> planners() const {
     if (!options_.all) return {config_.planner};
     auto out = globalPlanners();
-    std::erase_if(out, [this](const auto& word) { return !refusesSpace(word, config_.planning.sampling.space).empty(); });
+    std::erase_if(out,
+                  [this](const auto& word) { return !refusesSpace(word, config_.planning.sampling.space).empty(); });
     return out;
   }
   void moveEnds();

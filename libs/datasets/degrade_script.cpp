@@ -8,9 +8,10 @@ namespace sidestep {
 
 void DegradeEvent::visit(ParamVisitor& v) {
   v.text("label", label, "of the observations that suffer, or a kind (gps, imu, ...): all of that kind");
-  v.choice("do", action, {"drop", "thin", "delay", "freeze", "bias", "spike", "noise", "jump"},
-           "lose, keep every n-th, stamp late, repeat the last value, add a constant, add outliers, add noise; jump: cut "
-           "from_s to to_s out of the whole log and close the gap, as if the robot had been carried");
+  v.choice(
+      "do", action, {"drop", "thin", "delay", "freeze", "bias", "spike", "noise", "jump"},
+      "lose, keep every n-th, stamp late, repeat the last value, add a constant, add outliers, add noise; jump: cut "
+      "from_s to to_s out of the whole log and close the gap, as if the robot had been carried");
   v.choice("components", components, {"all", "xy", "theta", "rate"}, "which part of the reading");
   v.number("from_s", from_s, {0, 1e9}, "s", "begins so long after the log's first stamp");
   v.number("to_s", to_s, {0, 1e9}, "s", "and ends");

@@ -13,14 +13,14 @@ namespace sidestep {
 
 /// Something that goes wrong with the observations of one label, for a time or in a place.
 struct DegradeEvent {
-  std::string label;                             ///< of the observations; a kind's word ("gps") means all of that kind; none for jump
-  std::string action = "drop";                   ///< drop, thin, delay, freeze, bias, spike, noise, jump
-  std::string components = "all";                ///< all, xy, theta, rate
-  double from_s = 0, to_s = 1e9;                 ///< after the first stamp of the log; the end is not in it [s]
-  std::string zone;                              ///< only there; empty: everywhere
-  double probability = 1;                        ///< of each observation (drop, spike)
-  int keep_every = 2;                            ///< thin
-  double delay_s = 0;                            ///< delay
+  std::string label;               ///< of the observations; a kind's word ("gps") means all of that kind; none for jump
+  std::string action = "drop";     ///< drop, thin, delay, freeze, bias, spike, noise, jump
+  std::string components = "all";  ///< all, xy, theta, rate
+  double from_s = 0, to_s = 1e9;   ///< after the first stamp of the log; the end is not in it [s]
+  std::string zone;                ///< only there; empty: everywhere
+  double probability = 1;          ///< of each observation (drop, spike)
+  int keep_every = 2;              ///< thin
+  double delay_s = 0;              ///< delay
   double x_m = 0, y_m = 0, theta = 0, rate = 0;  ///< bias [m, m, rad, rad/s]
   double spike_m = 10, spike_theta = 1;          ///< size of a spike, whose direction is random [m, rad]
   double sd_m = 0, sd_theta = 0, sd_rate = 0;    ///< noise as it is [m, rad, rad/s] ...

@@ -6,6 +6,7 @@
 #include <mrpt/math/wrap2pi.h>
 #include <mrpt/obs/CObservation.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -34,7 +35,10 @@ class Event {
   const LogDegrader::EventCount& count() const { return count_; }
   bool concerns(const LogEntry& entry) const { return event_.label == entry.label || event_.label == word(entry.kind); }
   bool jumps() const { return event_.action == "jump"; }
-  double shift_s(double after_s) const { return jumps() && after_s >= event_.to_s ? event_.to_s - event_.from_s : 0; }
+  /// By how much later stamps have moved back; within the cut time stands still.
+  double shift_s(double after_s) const {
+    return jumps() ? std::max(0.0, std::min(after_s, event_.to_s) - event_.from_s) : 0;
+  }
   /// Counts what is cut out, as met and hit.
   bool jump(double first_s, double logged_s, LogEntry& entry) {
     if (!jump_) jump_.emplace(first_s + event_.from_s, first_s + event_.to_s);

@@ -13,8 +13,7 @@ bool LogJump::apply(double logged_s, LogEntry& entry) {
   const bool after = logged_s >= to_s_;
   if (!after && entry.kind != SensorKind::kOdometry) return true;
   if (after) {
-    entry.observation =
-        std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry.observation->duplicateGetSmartPtr());
+    entry.observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry.observation->duplicateGetSmartPtr());
     entry.time_s -= to_s_ - from_s_;
     entry.observation->timestamp = mrpt::Clock::fromDouble(entry.time_s);
   }
@@ -28,7 +27,7 @@ void LogJump::carry(LogEntry& entry, bool after) {
   Wheels& w = wheels_[entry.label];
   if (after && w.seen) {
     if (!w.anchored) {
-      w.moved = (mrpt::poses::CPose2D(w.last) - o->odometry).asTPose();
+      w.moved = (mrpt::poses::CPose2D(w.last) + (mrpt::poses::CPose2D() - o->odometry)).asTPose();  // last first^-1
       w.add_left = w.last_left - o->encoderLeftTicks;
       w.add_right = w.last_right - o->encoderRightTicks;
       w.anchored = true;

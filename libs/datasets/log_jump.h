@@ -12,8 +12,8 @@
 namespace sidestep {
 
 /// A stretch of a log is cut out and the gap closed, as if the robot had been carried in no time from where it was to
-/// where it is seen next. What comes later is stamped earlier by the length of the cut, and odometry, of which wheels in
-/// the air see nothing, goes on from its last reading: T' = T_last T_first^-1 T, and its ticks likewise.
+/// where it is seen next. What comes later is stamped earlier by the length of the cut, and odometry, of which wheels
+/// in the air see nothing, goes on from its last reading: T' = T_last T_first^-1 T, and its ticks likewise.
 class LogJump {
  public:
   /// @param from_s, to_s  of the cut, in the log's own time [s]; from_s < to_s

@@ -90,7 +90,8 @@ void LaserTrialParams::visit(ParamVisitor& v) {
 
 LaserTrial makeTrial(const RecordedDrive& drive, const LaserTrialParams& params, uint64_t seed) {
   Random random(seed, 1);
-  const double end_s = drive.start_s + drive.duration_s, length = params.length_s > 0 ? params.length_s : drive.duration_s;
+  const double end_s = drive.start_s + drive.duration_s,
+               length = params.length_s > 0 ? params.length_s : drive.duration_s;
   if (length > drive.duration_s + 1e-9)
     throw DatasetError::missing(drive.file + ": lasts " + shortestNumber(drive.duration_s) + " s, shorter than " +
                                 "trial.length_s = " + shortestNumber(length) + " s");
@@ -147,8 +148,9 @@ std::vector<LaserSample> localizeTrial(const LaserTrial& trial, const LocalizeCo
         const TPose2D a = before ? before->belief.mean : e.belief.mean, b = e.belief.mean;
         const auto& near = s < 0.5 && before ? *before : e;
         const TPose2D here{a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), wrapToPi(a.phi + s * wrapToPi(b.phi - a.phi))};
-        out.push_back({{truth->time_s - trial.drive.start_s, here, truth->pose, near.belief.covariance, truth->has_heading},
-                       near.lost_probability.value_or(kNaN)});
+        out.push_back(
+            {{truth->time_s - trial.drive.start_s, here, truth->pose, near.belief.covariance, truth->has_heading},
+             near.lost_probability.value_or(kNaN)});
       }
       before = e;
     }
@@ -164,9 +166,10 @@ std::vector<LaserSample> localizeTrial(const LaserTrial& trial, const LocalizeCo
 
 const std::vector<std::string>& laserMetricNames() {
   static const std::vector<std::string> names = {
-      "mean_error_m", "rmse_m",     "max_error_m", "heading_mean_error_deg", "mean_nees",  "final_error_m",
-      "found",        "found_after_s", "lost_share", "lost_told",             "lost_brier", "lost_gap_1",
-      "lost_gap_2",   "lost_gap_3", "lost_gap_4",  "lost_gap_5"};
+      "mean_error_m", "rmse_m",        "max_error_m", "heading_mean_error_deg",
+      "mean_nees",    "final_error_m", "found",       "found_after_s",
+      "lost_share",   "lost_told",     "lost_brier",  "lost_gap_1",
+      "lost_gap_2",   "lost_gap_3",    "lost_gap_4",  "lost_gap_5"};
   return names;
 }
 
@@ -189,9 +192,17 @@ std::vector<double> laserMetrics(const std::vector<LaserSample>& samples, double
   const auto of = [&](const char* name) {
     return drive[static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
   };
-  std::vector<double> out = {of("mean_error_m"), of("rmse_m"), of("max_error_m"), of("heading_mean_error_deg"),
-                             of("mean_nees"),    final_error,  final_error < kFound_m ? 1.0 : 0.0, found_after,
-                             lost / n,           told / n,     brier / n};
+  std::vector<double> out = {of("mean_error_m"),
+                             of("rmse_m"),
+                             of("max_error_m"),
+                             of("heading_mean_error_deg"),
+                             of("mean_nees"),
+                             final_error,
+                             final_error < kFound_m ? 1.0 : 0.0,
+                             found_after,
+                             lost / n,
+                             told / n,
+                             brier / n};
   for (const double gap : gaps) out.push_back(gap / n);
   return out;
 }

@@ -12,16 +12,18 @@
 namespace sidestep {
 namespace {
 constexpr size_t kMemorySize = 9;
-constexpr double kMostLooks = 20000;  // candidates for rivals, at a time
-constexpr double kWide_m = 0.5;  // a cloud with a larger sd may be several places
+constexpr double kLooksPerParticle = 4;  // candidates for rivals at a time, while nothing is amiss
+constexpr double kWide_m = 0.5;          // a cloud with a larger sd may be several places
 constexpr double kMostCandidates = 1e7;
-constexpr double kHere_m = 0.5;       // particles nearer than this stand for the estimate
+constexpr double kHere_m = 0.5;                     // particles nearer than this stand for the estimate
 constexpr double kNewView_m = 0.5, kNewView = 0.5;  // way [m] or turn [rad] after which a view says all anew
-constexpr double kLostPrior = 0.1;  // weight of what is drawn anew
+constexpr double kLostPrior = 0.1;                  // weight of what is drawn anew
+constexpr double kLeastExplained = 0.9;             // below it, other places are looked for in earnest
+
 /// Logistic regression of "off by more than 1 m" on the log-odds of the particles that are farther than that from the
-/// estimate, and the share of beams that the map explains; on three logs (doc/laser-localization.md says how).
-constexpr double kLost[3] = {5.9, 0.38, -7.1};
-constexpr double kLeastExplained = 0.9;  // below it, about even odds
+/// estimate, log(1 + evidence for a rival), the root of the share of beams through walls, and exp(-scans / 3). How much
+/// a map explains is not among them: it differs from world to world (doc/laser-localization.md).
+constexpr double kLost[5] = {-3.73, 0.18, 1.43, 9.97, 4.03};
 }  // namespace
 
 MclParams::MclParams() {
@@ -45,18 +47,27 @@ void MclParams::visit(ParamVisitor& v) {
   v.number("slip_share", slip_share, {0, 1}, "", "share of the particles that look farther around at each scan");
   v.number("slip_m", slip_m, {0, 10}, "m", "as far as this (sd), for wheels that slip");
   v.angle("slip_turn_deg", slip_turn, {0, 90}, "and turned by this");
+  v.number("map_sd_m", map_sd_m, {0, 10}, "m",
+           "sd of the map's own errors, which are the same for all particles; added to the covariance");
+  v.angle("map_sd_deg", map_sd_turn, {0, 90}, "the same for the heading");
   v.number("average_slow", average_slow, {0.0001, 1}, "", "weight of a scan in the slow average of fit");
   v.number("average_fast", average_fast, {0.0001, 1}, "", "weight of a scan in the fast one");
-  v.number("lost_share", recovery_share, {0, 0.9}, "", "share of the particles drawn anew when scans do not fit");
-  v.number("lost_below", recovery_below, {0, 1}, "", "they do not: fast average below this part of the slow one");
-  v.number("lost_gain", recovery_gain, {0, 1000}, "",
-           "and some place fits better than the cloud, by this much in the logarithm of its weight");
+  v.number("lost_share", recovery_share, {0, 0.9}, "",
+           "share of the particles drawn anew when another place fits better");
+  v.number("lost_below", recovery_below, {0, 1}, "",
+           "places are looked for in earnest: fast average below this part of the slow one");
+  v.number("lost_gain", recovery_gain, {0, 30}, "",
+           "evidence for another place, as a logarithm of odds, at which particles are drawn anew there");
   v.number("lost_pause_s", recovery_pause_s, {0, 1000}, "s", "other places are looked for not more often than this");
   v.integer("rivals", rivals, {2, 10000}, "other places that are followed along, to tell whether the robot is lost");
 }
 
 Mcl::Mcl(const MclParams& params, uint64_t seed, std::shared_ptr<const ScanModel> model, bool global)
-    : ParticleFilter(params.engine, seed), mcl_(params), model_(std::move(model)), global_(global), rivals_(static_cast<size_t>(params.rivals)) {
+    : ParticleFilter(params.engine, seed),
+      mcl_(params),
+      model_(std::move(model)),
+      global_(global),
+      rivals_(static_cast<size_t>(params.rivals)) {
   log_likelihood_.resize(static_cast<Eigen::Index>(cloud_.capacity()));
 }
 
@@ -98,7 +109,9 @@ Correction Mcl::correct(const Measurement& m) {
 Correction Mcl::correctScan(const Measurement& m) {
   if (!m.scan || m.scan->size() == 0) return {Correction::Reason::kNotFinite, 0, 0};
   const bool moved = memory_.travel >= mcl_.min_travel_m || memory_.turn >= mcl_.min_turn;
-  if (!moved && memory_.scans > 0) return {Correction::Reason::kNothingNew, 0, 0};
+  // Where the robot may be anywhere, the first view counts again until it has counted once in full.
+  const bool settling = global_ && memory_.scans * model_->weight() < 1;
+  if (!moved && memory_.scans > 0 && !settling) return {Correction::Reason::kNothingNew, 0, 0};
   const double news = std::min(1.0, memory_.travel / kNewView_m + memory_.turn / kNewView);
   memory_.travel = memory_.turn = 0;
   ++memory_.scans;
@@ -211,7 +224,8 @@ ScanModel::Judgement Mcl::judgeHere(const mrpt::math::TPose2D& here, const Scan&
 }
 
 /// Is there a place that fits better, scan after scan? Then a share of the particles is drawn anew from there, as in
-/// augmented MCL (Thrun, Burgard & Fox 2005, table 8.3), and what comes next decides. If none does, the map is at fault.
+/// augmented MCL (Thrun, Burgard & Fox 2005, table 8.3), and what comes next decides. If none does, the map is at
+/// fault.
 /// @param fit   mean log-likelihood of the scan over the cloud
 /// @param news  how much of the view is new, 0 .. 1
 void Mcl::watch(const Measurement& m, double fit, double news) {
@@ -230,7 +244,8 @@ void Mcl::watch(const Measurement& m, double fit, double news) {
   const auto count = static_cast<size_t>(mcl_.recovery_share * static_cast<double>(cloud_.size()));
   if (count > 0 && rivals_.evidence(here) >= mcl_.recovery_gain) recover(count);
   const bool doubtful = a.fast < mcl_.recovery_below * a.slow || a.explained < kLeastExplained;
-  const size_t looks = candidateCount(mcl_.candidates_per_m2 / 10, 1, doubtful ? kMostCandidates : kMostLooks);
+  const size_t looks = candidateCount(mcl_.candidates_per_m2 / 10, 1,
+                                      doubtful ? kMostCandidates : kLooksPerParticle * params_.particles);
   rivals_.renew(Candidates::draw(*model_, *m.scan, looks, random_), here);
 }
 
@@ -253,7 +268,9 @@ PoseBelief Mcl::estimate() const {
 
 PoseBelief Mcl::heaviest() const {
   PoseBelief all = cloud_.belief();
-  if (all.covariance.topLeftCorner<2, 2>().trace() < kWide_m * kWide_m) return all;
+  const double spread = all.covariance.topLeftCorner<2, 2>().trace();
+  all.covariance.diagonal() += Eigen::Vector3d(mcl_.map_sd_m, mcl_.map_sd_m, mcl_.map_sd_turn).cwiseAbs2();
+  if (spread < kWide_m * kWide_m) return all;
   const PoseMode mode = cloud_.densest(0.5, 0.35);
   const Eigen::Vector3d d(all.mean.x - mode.belief.mean.x, all.mean.y - mode.belief.mean.y,
                           wrapAngle(all.mean.phi - mode.belief.mean.phi));
@@ -274,14 +291,14 @@ double Mcl::shareBeyond(const mrpt::math::TPose2D& mean, double distance_m) cons
 
 Mcl::Signs Mcl::signs() const {
   const auto here = estimate().mean;
-  return {shareBeyond(here, 1), memory_.explained, rivals_.evidence(here), memory_.through,
-          memory_.scans, memory_.fast, memory_.slow};
+  return {shareBeyond(here, 1), memory_.explained, rivals_.evidence(here), memory_.through, memory_.scans};
 }
 
 std::optional<double> Mcl::lostProbability() const {
   const Signs s = signs();
   const double beyond = std::clamp(s.beyond, 0.001, 0.999);
-  const double z = kLost[0] + kLost[1] * std::log(beyond / (1 - beyond)) + kLost[2] * s.explained;
+  const double z = kLost[0] + kLost[1] * std::log(beyond / (1 - beyond)) + kLost[2] * std::log1p(s.evidence) +
+                   kLost[3] * std::sqrt(std::max(0.0, s.through)) + kLost[4] * std::exp(-s.scans / 3);
   return 1 / (1 + std::exp(-z));
 }
 

@@ -19,17 +19,18 @@ struct MclParams {
   double min_turn = 0.02;  // rad
   double least_ess_share = 0.1;
   double candidates_per_m2 = 300;
-  double noise_scale = 2;
+  double noise_scale = 1.5;
   double slip_share = 0.1;
   double slip_m = 0.2;
-  double slip_turn = 0.0872664625997164788;  // rad
+  double slip_turn = 0.0872664625997164788;                    // rad
+  double map_sd_m = 0.04, map_sd_turn = 0.008726646259971648;  // m, rad
   double average_slow = 0.02;
   double average_fast = 0.3;
   double recovery_share = 0.2;
   double recovery_below = 0.8;
   double recovery_gain = 20;
   double recovery_pause_s = 2;
-  int rivals = 64;
+  int rivals = 32;
 
   MclParams();
   void visit(ParamVisitor& v);
@@ -40,9 +41,9 @@ struct MclParams {
 ///
 /// Where the start is unknown, a dense lattice of poses drawn over all free space is weighed by the first scan and the
 /// particles are drawn from it. A scan that would leave fewer than `least_ess_share` effective particles is taken with
-/// a smaller exponent, so that no single scan decides among many places. When scans fit worse than they used to (fast
-/// by slow average of the mean likelihood of a beam), a share of the particles is drawn anew from such a lattice. A
-/// scan is used only once the robot has moved: the same view again says nothing new.
+/// a smaller exponent, so that no single scan decides among many places. Other places are followed along (Rivals); when
+/// one of them fits better over some way, a share of the particles is drawn anew from there. A scan is used only once
+/// the robot has moved: the same view again says nothing new.
 class Mcl final : public ParticleFilter {
  public:
   /// @param global  `start`'s belief is not to be trusted: the robot may be anywhere on the map
@@ -50,7 +51,7 @@ class Mcl final : public ParticleFilter {
   void start(const PoseBelief& belief) override;
   void predict(const MotionStep& motion) override;
   Correction correct(const Measurement& measurement) override;
-  /// Of the heaviest mode; the covariance is of all particles about it.
+  /// Of the heaviest mode; the covariance is of all particles about it, and of the map's errors.
   PoseBelief estimate() const override;
   std::optional<double> lostProbability() const override;
   /// What that probability rests on.
@@ -60,7 +61,6 @@ class Mcl final : public ParticleFilter {
     double evidence = 0;   ///< for the best rival, as a logarithm of odds
     double through = 0;    ///< share of the beams that went through walls, averaged likewise
     double scans = 0;      ///< used since the start
-    double fast = 0, slow = 0;
   };
   Signs signs() const;
   void save(std::vector<double>& out) const override;

@@ -60,9 +60,12 @@ void Rivals::compare(const ScanModel& model, const Scan& scan, double fit, doubl
     model.logLikelihoods(scan, x, y, yaw, kTries, there);
     const auto best = static_cast<size_t>(std::max_element(there, there + kTries) - there);
     r.pose = {x[best], y[best], yaw[best]};
-    ++r.scans;
-    r.evidence = std::clamp(r.evidence + weight * (model.judge(scan, r.pose).fit - fit), 0.0, kMostEvidence);
+    r.evidence = std::max(0.0, r.evidence + weight * (model.judge(scan, r.pose).fit - fit));
   }
+  double most = 0;
+  for (const auto& r : rivals_) most = std::max(most, r.evidence);
+  if (most <= kMostEvidence) return;
+  for (auto& r : rivals_) r.evidence = std::max(0.0, r.evidence - (most - kMostEvidence));  // all by the same
 }
 
 void Rivals::renew(const Candidates& from, const TPose2D& estimate) {
@@ -84,8 +87,9 @@ void Rivals::renew(const Candidates& from, const TPose2D& estimate) {
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(looked), order.end(), better);
   for (size_t k = 0; k < looked && rivals_.size() < most_; ++k) {
     const TPose2D p{from.x[order[k]], from.y[order[k]], from.yaw[order[k]]};
-    const bool taken = std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) { return samePlace(r.pose, p); });
-    if (!taken && apart(p, estimate) >= kApart_m) rivals_.push_back({p, 0, 0});
+    const bool taken =
+        std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) { return samePlace(r.pose, p); });
+    if (!taken && apart(p, estimate) >= kApart_m) rivals_.push_back({p, 0});
   }
 }
 
@@ -112,17 +116,17 @@ TPose2D Rivals::draw(Random& random) const {
 
 void Rivals::save(std::vector<double>& out) const {
   for (const auto& r : rivals_)
-    for (const double v : {r.pose.x, r.pose.y, r.pose.phi, r.evidence, r.scans}) out.push_back(v);
+    for (const double v : {r.pose.x, r.pose.y, r.pose.phi, r.evidence}) out.push_back(v);
   out.push_back(static_cast<double>(rivals_.size()));
 }
 
 const double* Rivals::restore(const double* end) {
   rivals_.resize(static_cast<size_t>(*--end));
-  const double* begin = end - 5 * static_cast<std::ptrdiff_t>(rivals_.size());
+  const double* begin = end - 4 * static_cast<std::ptrdiff_t>(rivals_.size());
   const double* p = begin;
   for (auto& r : rivals_) {
-    r = {{p[0], p[1], p[2]}, p[3], p[4]};
-    p += 5;
+    r = {{p[0], p[1], p[2]}, p[3]};
+    p += 4;
   }
   return begin;
 }

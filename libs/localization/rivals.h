@@ -54,7 +54,7 @@ class Rivals {
  private:
   struct Rival {
     mrpt::math::TPose2D pose;
-    double evidence = 0, scans = 0;
+    double evidence = 0;  ///< [nats]
   };
   size_t most_;
   std::vector<Rival> rivals_;

@@ -12,8 +12,8 @@ namespace sidestep {
 namespace {
 constexpr size_t kMostBeams = 2000;
 constexpr float kShort = 1, kThrough = 6;  // what a beam costs that ends short of the walls, or behind one
-constexpr float kGrazing_m = 0.5f;            // so much of a beam may run along a wall
-}
+constexpr float kGrazing_m = 0.5f;         // so much of a beam may run along a wall
+}  // namespace
 
 void ScanModelParams::visit(ParamVisitor& v) {
   v.choice("model", model, {"field", "beam"}, "likelihood field (precomputed), or each beam followed through the map");

@@ -17,8 +17,8 @@ namespace sidestep {
 /// How likely a scan is, seen from a pose in a map.
 struct ScanModelParams {
   std::string model = "field";
-  double sd_m = 0.15;
-  double hit_share = 0.8;
+  double sd_m = 0.12;
+  double hit_share = 0.5;
   double short_share = 0.1;  // beam model only
   double short_m = 2;        // mean length of a short range
   double field_reach_m = 1;
@@ -48,8 +48,8 @@ class ScanModel {
     double fit = 0;      ///< log-likelihood of all beams; one that ends short is excused, one through a wall is not
     double through = 0;  ///< share of the beams that went through a wall of the map to where they ended
   };
-  /// Things that the map does not know shorten many beams at once and say little against a place. Nothing excuses a beam
-  /// that is longer than the map allows.
+  /// Things that the map does not know shorten many beams at once and say little against a place. Nothing excuses a
+  /// beam that is longer than the map allows.
   Judgement judge(const Scan& scan, const mrpt::math::TPose2D& pose) const;
   /// What a scan of `beams` beams weighs, as a factor of its log-likelihood.
   double weight() const { return params_.beam_weight; }

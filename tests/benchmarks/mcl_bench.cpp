@@ -53,6 +53,7 @@ void BM_MclStep(benchmark::State& state) {
   for (auto _ : state) {
     mcl.predict(step);
     step.distance_m = -step.distance_m;  // to and fro, so that the scan stays true
+    m.time_s += step.dt_s;               // rivals are looked for now and then
     benchmark::DoNotOptimize(mcl.correct(m));
     benchmark::DoNotOptimize(mcl.estimate());
   }

@@ -102,7 +102,7 @@ TEST(ScanModel, IsHighestWhereTheScanWasTaken) {
 }
 
 TEST(ScanModel, ABeamsEndWeighsAsItsDistanceSays) {
-  // One beam that ends 0.2 m before a wall: log(0.8 exp(-(0.2 / 0.15)^2 / 2) + 0.2 * 0.15 sqrt(2 pi) / 10), up to a
+  // One beam that ends 0.2 m before a wall: log(0.5 exp(-(0.2 / 0.12)^2 / 2) + 0.5 * 0.12 sqrt(2 pi) / 10), up to a
   // cell.
   const auto map = support::room();
   Scan scan;
@@ -110,12 +110,31 @@ TEST(ScanModel, ABeamsEndWeighsAsItsDistanceSays) {
   scan.y = {0.0f};
   const auto model = modelOf(map);
   const auto logOf = [](double d) {
-    return std::log(0.8 * std::exp(-0.5 * d * d / 0.0225) + 0.2 * 0.15 * std::sqrt(2 * M_PI) / 10);
+    return std::log(0.5 * std::exp(-0.5 * d * d / 0.0144) + 0.5 * 0.12 * std::sqrt(2 * M_PI) / 10);
   };
   const double l = likelihoodAt(*model, scan, {8.8, 4.5, 0});  // the wall's first cell is centred at 10.025
   EXPECT_LE(l, logOf(0.2) + 1e-4);
   EXPECT_GE(l, logOf(0.25));
   EXPECT_NEAR(likelihoodAt(*model, scan, {100, 100, 0}), logOf(1), 1e-5);  // far outside there is nothing
+}
+
+TEST(ScanModel, ExcusesBeamsThatEndShortAndNoneThatGoThroughWalls) {
+  // From (5, 2) looking along +x the wall is 5 m away; of three beams one ends at it, one 3 m before, one 3 m behind.
+  const auto map = support::room();
+  const auto model = modelOf(map);
+  const auto judged = [&](float range) {
+    Scan scan;
+    scan.x = {range};
+    scan.y = {0};
+    return model->judge(scan, {5, 2, 0});
+  };
+  const auto hit = judged(5.02f), early = judged(2), late = judged(8);
+  EXPECT_GT(hit.fit, -0.2);
+  EXPECT_LT(early.fit, hit.fit);
+  EXPECT_LT(late.fit, early.fit - 2);
+  EXPECT_EQ(hit.through, 0);
+  EXPECT_EQ(early.through, 0);
+  EXPECT_EQ(late.through, 1);
 }
 
 TEST(ScanModel, KnowsAMapThatIsTurnedInItsFrame) {
@@ -250,6 +269,56 @@ TEST(Mcl, SaysHowLikelyItIsLost) {
   EXPECT_GT(lost / all, 0.02);
   EXPECT_NEAR(told / all, lost / all, 0.1);
   EXPECT_GT(told_when_lost / lost, 3 * told_when_not / (all - lost));
+}
+
+TEST(Rivals, GatherEvidenceOnlyWhereTheEstimateIsWrong) {
+  const auto map = support::room();
+  const auto model = modelOf(map);
+  const mrpt::math::TPose2D truth{4, 2, 0.3}, wrong{8, 5, -2};
+  for (const bool right : {true, false}) {
+    Random random(21);
+    Rivals rivals(64);
+    const auto estimate = right ? truth : wrong;
+    for (int k = 0; k < 8; ++k) {
+      const auto scan = readScan(ScanParams(), support::scanIn(map, truth, 0.02, random));
+      rivals.compare(*model, *scan, model->judge(*scan, estimate).fit, 0.15, random);
+      rivals.renew(Candidates::draw(*model, *scan, 20000, random), estimate);
+    }
+    EXPECT_GT(rivals.size(), 10u);
+    if (right) EXPECT_LT(rivals.evidence(estimate), 3);
+    if (!right) {
+      EXPECT_GT(rivals.evidence(estimate), 20);
+      int near = 0;
+      for (int k = 0; k < 100; ++k) {
+        const auto p = rivals.draw(random);
+        near += std::hypot(p.x - truth.x, p.y - truth.y) < 0.5;
+      }
+      EXPECT_GT(near, 80);
+    }
+    std::vector<double> state, again;
+    rivals.save(state);
+    Rivals copy(64);
+    copy.restore(state.data() + state.size());
+    copy.save(again);
+    EXPECT_EQ(state, again);
+  }
+}
+
+TEST(Mcl, TheMapsOwnErrorsAreInTheCovariance) {
+  Drive drive;
+  MclParams exact, rough;
+  exact.map_sd_m = exact.map_sd_turn = 0;
+  rough.map_sd_m = 0.3;
+  rough.map_sd_turn = 0.1;
+  Mcl a(exact, 4, modelOf(drive.map), false), b(rough, 4, modelOf(drive.map), false);
+  a.start(around(drive.truth));
+  b.start(around(drive.truth));
+  EXPECT_EQ(a.estimate().mean.x, b.estimate().mean.x);
+  const Eigen::Matrix3d more = b.estimate().covariance - a.estimate().covariance;
+  EXPECT_NEAR(more(0, 0), 0.09, 1e-9);
+  EXPECT_NEAR(more(1, 1), 0.09, 1e-9);
+  EXPECT_NEAR(more(2, 2), 0.01, 1e-9);
+  EXPECT_NEAR(more(0, 1), 0, 1e-9);
 }
 
 TEST(Mcl, AScanFromWhereTheLastOneWasTakenSaysNothingNew) {

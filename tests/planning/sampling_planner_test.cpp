@@ -54,7 +54,7 @@ TEST_P(SamplingPlanners, FindAPathThatKeepsTheClearanceAndTheSameOneAgain) {
   const auto grid = rooms();
   auto params = counted(space);
   if (space != "se2" && word == "rrtstar") params.iterations = 150;  // each of its looks tries many arcs
-  if (word == "bitstar") params.iterations = 15000;                  // looks the most often
+  if (word == "bitstar") params.iterations = space == "se2" ? 8000 : 3000;  // looks the most often, arcs cost more
   const auto planner = makeSamplingPlanner(word, grid, params);
   const auto first = planner->plan(kStart, kGoal);
   expectAPath(first, grid->field(), space + " " + word);

@@ -30,6 +30,28 @@ inline GridMap room() {
   return map;
 }
 
+/// 14 m x 10 m with boxes and pieces of wall at random, its corner at the origin; cells of 5 cm.
+inline GridMap randomRoom(uint64_t seed) {
+  Random random(seed, 100);
+  GridMap map;
+  map.grid = std::make_shared<mrpt::maps::COccupancyGridMap2D>(-1.0f, 15.0f, -1.0f, 11.0f, 0.05f);
+  map.grid->fill(0.5f);
+  const auto block = [&](double x0, double y0, double x1, double y1, float free) {
+    for (double x = x0 + 0.025; x < x1; x += 0.05)
+      for (double y = y0 + 0.025; y < y1; y += 0.05)
+        map.grid->setPos(static_cast<float>(x), static_cast<float>(y), free);
+  };
+  block(-0.1, -0.1, 14.1, 10.1, 0.02f);
+  block(0, 0, 14, 10, 0.98f);
+  for (int k = 0; k < 6; ++k) {
+    const bool wall = k < 2;
+    const double w = wall ? 0.1 : random.uniform(0.4, 2.5), h = random.uniform(wall ? 3 : 0.4, wall ? 6 : 1.5);
+    const double x = random.uniform(1, 13 - w), y = random.uniform(0, 10 - h);
+    block(x, y, x + w, y + h, 0.02f);
+  }
+  return map;
+}
+
 /// Range to the first occupied cell, in steps of 1 cm; far beyond the room if there is none.
 inline double rangeIn(const GridMap& map, double x, double y, double angle) {
   for (double r = 0; r < 20; r += 0.01)
