@@ -18,15 +18,6 @@
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which have a malloc of their own
 #define SIDESTEP_COUNTS_ALLOCATIONS
 namespace {
-
-using support::beliefOf;
-using support::fix;
-using support::saved;
-using support::stepOf;
-
-Measurement heading(double time_s, double yaw, double sd, bool has_offset = false) {
-  return support::heading(time_s, yaw, sd, has_offset);
-}
 /// Allocations of this thread since the program began.
 thread_local long allocations = 0;
 }  // namespace
@@ -42,10 +33,18 @@ extern "C" void* malloc(size_t size) {
 namespace sidestep {
 namespace {
 
+using support::beliefOf;
+using support::fix;
+using support::saved;
+using support::stepOf;
 using Kind = Measurement::Kind;
 using Reason = Correction::Reason;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Measurement heading(double time_s, double yaw, double sd, bool has_offset = false) {
+  return support::heading(time_s, yaw, sd, has_offset);
+}
 
 Measurement range(double time_s, double r, const Eigen::Vector3d& beacon, double sd) {
   Measurement m;
