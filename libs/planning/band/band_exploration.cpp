@@ -79,13 +79,36 @@ void BandPlanner::addAlong(std::span<const mrpt::math::TPoint2D> way, const mrpt
   slot->alive = slot->fresh = true;
 }
 
-/// Where every band touches something that moves: a drive searched in space and time, and ways around and through that
-/// wait, let pass or back off. Those that stay clear when optimized take the places of bands that touch.
-void BandPlanner::letPass(const PlanInput& input) {
+/// Where every band touches something.
+void BandPlanner::rescue(const PlanInput& input) {
   const auto clear = [](const BandCandidate& c) { return c.alive && c.whole.clear && !c.result.diverged; };
-  if (!view_.movesInTime() || input.time_s < let_pass_again_ || !goalIsFree() ||
-      std::any_of(pool_.begin(), pool_.end(), clear))
-    return;
+  if (input.time_s < rescue_again_ || !goalIsFree() || std::any_of(pool_.begin(), pool_.end(), clear)) return;
+  const bool rescued = view_.movesInTime() ? letPass(input) : keepToTheGraph(input);
+  // each time in vain doubles the time until the next
+  rescue_wait_s_ = rescued ? kTryAgain_s : std::min(2 * rescue_wait_s_, kTryAgainMost_s);
+  rescue_again_ = input.time_s + rescue_wait_s_;
+}
+
+/// The optimizer gives up clearance for time; the ways of the graph have it. @return whether one is clear
+bool BandPlanner::keepToTheGraph(const PlanInput& input) {
+  const double radius = problem_.robot.radius_m;
+  const SpeedProfile profile(frame_.length, std::max(input.twist.vx, 0.0), input.limits, goal_.is_goal);
+  const auto& ways = graph_.search(
+      {frame_, &view_, radius + params_.band.distance_least_m, radius + params_.band.distance_m, profile, true});
+  TimedBand& timed = timed_[0];
+  for (size_t k = 0; k < graph_.found(); ++k) {
+    const BandStart spec{
+        input.pose, goal_.pose, problem_.ends, goal_.heading_free, params_.band.interval_s, params_.band.poses_max};
+    maker_.along(ways[k].points, spec, input.limits, timed.band);
+    timed.beside = ways[k].beside;
+    if (becomesClear(input, timed) && place(passing_)) return true;
+  }
+  return false;
+}
+
+/// Among what moves: a drive searched in space and time, and ways around and through that wait, let pass or back off.
+/// Those that stay clear when optimized take the places of bands that touch. @return whether there is any
+bool BandPlanner::letPass(const PlanInput& input) {
   const double radius = problem_.robot.radius_m, least = radius + params_.band.distance_least_m + kSpare_m;
   int placed = searchInTime(input) && place(passing_) ? 1 : 0;
   timed_count_ = 0;
@@ -97,9 +120,7 @@ void BandPlanner::letPass(const PlanInput& input) {
     if (input.out_of_time && input.out_of_time()) break;
     if (becomesClear(input, *t) && place(passing_)) ++placed;
   }
-  // each time in vain doubles the time until the next
-  let_pass_wait_s_ = placed > 0 ? kTryAgain_s : std::min(2 * let_pass_wait_s_, kTryAgainMost_s);
-  let_pass_again_ = input.time_s + let_pass_wait_s_;
+  return placed > 0;
 }
 
 /// Whether nothing stands on the goal.

@@ -55,8 +55,8 @@ void BandPlanner::reset() {
   for (auto* times : {sign_changed_, class_changed_}) std::fill(times, times + 4, -1e9);
   last_turn_ = 0;
   steady_until_ = -1e9;
-  let_pass_again_ = -1e9;
-  let_pass_wait_s_ = 0.25;
+  rescue_again_ = -1e9;
+  rescue_wait_s_ = 0.25;
 }
 
 const BandCandidate* BandPlanner::chosen() const {
@@ -77,7 +77,7 @@ void BandPlanner::plan(const PlanInput& input, PlanOutput& out) {
   carryOver(input);
   explore(input);
   optimizeAll(input);
-  letPass(input);
+  rescue(input);
   judge(input);
   choose(input, out);
   if (explain_) explainTo(out);

@@ -132,7 +132,9 @@ class BandPlanner final : public LocalPlanner {
   void optimizeAll(const PlanInput& input);
   void optimizeOne(const PlanInput& input, Worker& worker, BandCandidate& c);
   void examine(Worker& worker, BandCandidate& c);
-  void letPass(const PlanInput& input);
+  void rescue(const PlanInput& input);
+  bool keepToTheGraph(const PlanInput& input);
+  bool letPass(const PlanInput& input);
   void timeWays(const PlanInput& input, double keep_out);
   void timeWay(std::span<const mrpt::math::TPoint2D> way, const mrpt::math::TPoint2D& beside, double keep_out,
                const PlanInput& input);
@@ -170,7 +172,7 @@ class BandPlanner final : public LocalPlanner {
   size_t timed_count_ = 0;
   std::vector<mrpt::math::TPoint2D> bow_;
   BandCandidate passing_;
-  double let_pass_again_ = -1e9, let_pass_wait_s_ = 0.25;  ///< when it is worth trying again
+  double rescue_again_ = -1e9, rescue_wait_s_ = 0.25;  ///< when it is worth trying again
   std::vector<size_t> order_;
   std::vector<TrajectoryPoint> driven_;
   LocalGoal goal_;
