@@ -22,6 +22,16 @@ void SimulateConfig::check() const {
     localization.check();
 }
 
+namespace {
+
+/// Each of the planners asked for, of which pictures of what they consider can be made, or the scenario's.
+void checkSnapshots(const SimulateOptions& o, const std::string& scenarios_own) {
+  for (const auto& name : o.planners.empty() ? std::vector<std::string>{scenarios_own} : o.planners)
+    if (!isLocalPlanner(name)) throw ConfigError("--snapshots: " + name + " is no local planner, it considers nothing");
+}
+
+}  // namespace
+
 SimulateConfig effectiveConfig(const SimulateOptions& o) {
   SimulateConfig c;
   if (!o.scenario.empty()) readYaml(o.scenario, [&](ParamVisitor& v) { c.visit(v); });
@@ -32,8 +42,10 @@ SimulateConfig effectiveConfig(const SimulateOptions& o) {
     if (o.planners.size() > 1 && o.snapshots_s.empty())
       throw ConfigError("--planner: more than one only with --snapshots");
     WorldParams& world = c.world.world;
-    if (!o.planners.empty() && !world.robot_names.empty())
-      world.robots.at(world.robot_names[0]).planner = o.planners[0];
+    if (world.robot_names.empty()) return c;  // an error of its own later
+    std::string& planner = world.robots.at(world.robot_names[0]).planner;
+    if (!o.snapshots_s.empty()) checkSnapshots(o, planner);
+    if (!o.planners.empty()) planner = o.planners[0];
   }
   return c;
 }

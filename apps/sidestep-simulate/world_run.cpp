@@ -55,14 +55,10 @@ std::string metricsText(const SimulateConfig& config, const World& world, const 
 /// Has the first robot's planner say why it does what it does.
 void askForReasons(const WorldScenario& scenario, World& world, PlanExplanation& explanation) {
   const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
-  if (!isLocalPlanner(robot.planner))
+  if (!watchFirstRobot(world, scenario, true, [&explanation](const PlanInput& in, const PlanOutput& out) {
+        explanation.note(in.time_s, out);
+      }))
     throw ConfigError("--explain: the first robot is driven by " + robot.planner + ", which is no local planner");
-  auto planner = makeLocalPlanner(robot.planner, scenario.planners.planners);
-  planner->explain(true);
-  world.setDriver(0, makePlannerDriver(std::move(planner), robot.limits, scenario.planners,
-                                       [&explanation](const PlanInput& in, const PlanOutput& out) {
-                                         explanation.note(in.time_s, out);
-                                       }));
 }
 
 void film(const WorldFigure& figure, const OutputFolder& folder) {

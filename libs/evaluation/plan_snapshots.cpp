@@ -108,8 +108,6 @@ std::string panel(const std::string& title, const PlanSnapshot& s, const std::st
 std::vector<PlanSnapshot> takeSnapshots(const WorldScenario& scenario, uint64_t seed, const WorldInputs& inputs,
                                         const std::vector<double>& times_s) {
   std::vector<PlanSnapshot> out;
-  const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
-  if (!isLocalPlanner(robot.planner)) return out;
   World world(scenario.world, seed, inputs, plannerDrivers(scenario.planners));
   std::vector<TPoint2D> driven;
   const auto watch = [&](const PlanInput& in, const PlanOutput& plan) {
@@ -117,9 +115,7 @@ std::vector<PlanSnapshot> takeSnapshots(const WorldScenario& scenario, uint64_t 
     while (out.size() < times_s.size() && in.time_s + 1e-9 >= times_s[out.size()])
       out.push_back(snapshotOf(world, in, plan, driven));
   };
-  auto planner = makeLocalPlanner(robot.planner, scenario.planners.planners);
-  planner->explain(true);
-  world.setDriver(0, makePlannerDriver(std::move(planner), robot.limits, scenario.planners, watch));
+  if (!watchFirstRobot(world, scenario, true, watch)) return out;
   world.run([&] { return out.size() < times_s.size(); });
   return out;
 }

@@ -184,11 +184,7 @@ void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::
 struct WatchedRun {
   WatchedRun(const WorldScenario& scenario, const WorldInputs& inputs, uint64_t seed)
       : world(scenario.world, seed, inputs, plannerDrivers(scenario.planners)), recorder(world) {
-    const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
-    if (isLocalPlanner(robot.planner))
-      world.setDriver(
-          0, makePlannerDriver(makeLocalPlanner(robot.planner, scenario.planners.planners), robot.limits,
-                               scenario.planners, [this](const PlanInput&, const PlanOutput& out) { count(out); }));
+    watchFirstRobot(world, scenario, false, [this](const PlanInput&, const PlanOutput& out) { count(out); });
     world.run([this] {
       recorder.note();
       return true;

@@ -50,6 +50,15 @@ void WorldScenario::check() const {
   }
 }
 
+bool watchFirstRobot(World& world, const WorldScenario& scenario, bool explain, PlanWatch watch) {
+  const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
+  if (!isLocalPlanner(robot.planner)) return false;
+  auto planner = makeLocalPlanner(robot.planner, scenario.planners.planners);
+  planner->explain(explain);
+  world.setDriver(0, makePlannerDriver(std::move(planner), robot.limits, scenario.planners, std::move(watch)));
+  return true;
+}
+
 std::string scenarioPath(const std::string& path, const std::string& scenario_file) {
   namespace fs = std::filesystem;
   const std::string name = withVariables(path, scenario_file);

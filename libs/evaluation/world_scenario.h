@@ -21,6 +21,12 @@ struct WorldScenario {
   void check() const;
 };
 
+/// Has what the first robot's planner is asked and answers told to `watch`; it drives on as `plannerDrivers` would have
+/// it.
+/// @param explain  the planner says of each candidate why it lost
+/// @return false if the first robot is driven by no local planner: nothing is watched
+bool watchFirstRobot(World& world, const WorldScenario& scenario, bool explain, PlanWatch watch);
+
 /// A file that a scenario names: ${NAME} is the environment's; a relative path is meant from here or, if nothing is
 /// there, from the scenario's own folder.
 std::string scenarioPath(const std::string& path, const std::string& scenario_file);
