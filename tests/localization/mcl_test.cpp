@@ -285,8 +285,9 @@ TEST(Rivals, GatherEvidenceOnlyWhereTheEstimateIsWrong) {
       rivals.renew(Candidates::draw(*model, *scan, 20000, random), estimate);
     }
     EXPECT_GT(rivals.size(), 10u);
-    if (right) EXPECT_LT(rivals.evidence(estimate), 3);
-    if (!right) {
+    if (right) {
+      EXPECT_LT(rivals.evidence(estimate), 3);
+    } else {
       EXPECT_GT(rivals.evidence(estimate), 20);
       int near = 0;
       for (int k = 0; k < 100; ++k) {
