@@ -140,12 +140,13 @@ bool drawConsistency(const ConsistencyFigure& figure, const std::string& png_fil
     script += blockOf("$a" + std::to_string(i), panels[i].accepted) +
               blockOf("$r" + std::to_string(i), panels[i].refused) + blockOf("$m" + std::to_string(i), panels[i].means);
   }
-  script += "set terminal pngcairo noenhanced size 1100," + std::to_string(60 + 290 * panels.size()) +
-            " font 'sans,11'\nset encoding utf8\nset output " + gnuplotQuoted(png_file) + "\nset multiplot layout " +
-            count + ",1 title " + gnuplotQuoted(figure.title) +
-            " noenhanced font ',14'\nset border 3 lc rgb '#404040'\nset tics nomirror out\nset logscale y 10\nset lmargin 9\n"
-            "set grid ytics back lt 1 lc rgb '#e4e4e4' lw 1\nset format y '%g'\n"
-            "set key outside right top vertical Left reverse noenhanced samplen 2 spacing 1.2 width 1\n";
+  script +=
+      "set terminal pngcairo noenhanced size 1100," + std::to_string(60 + 290 * panels.size()) +
+      " font 'sans,11'\nset encoding utf8\nset output " + gnuplotQuoted(png_file) + "\nset multiplot layout " + count +
+      ",1 title " + gnuplotQuoted(figure.title) +
+      " noenhanced font ',14'\nset border 3 lc rgb '#404040'\nset tics nomirror out\nset logscale y 10\nset lmargin 9\n"
+      "set grid ytics back lt 1 lc rgb '#e4e4e4' lw 1\nset format y '%g'\n"
+      "set key outside right top vertical Left reverse noenhanced samplen 2 spacing 1.2 width 1\n";
   for (size_t i = 0; i < panels.size(); ++i) script += panelScript(panels[i], i, i + 1 == panels.size());
   runGnuplot(script + "unset multiplot\nunset output\n", png_file);
   return true;

@@ -173,9 +173,9 @@ TEST(Evaluate, WhatIsWrongInAStudyIsNamed) {
   EXPECT_NE(errorOf("kind: localization", "kind: localisation").find("did you mean 'localization'?"),
             std::string::npos);
   EXPECT_NE(errorOf("axis: outage_s", "axis: outage").find("did you mean 'outage_s'?"), std::string::npos);
-  EXPECT_NE(errorOf("duration_s: 3", "duration: 3").find("study.yaml:10: trajectory.duration is no known key"),
+  EXPECT_NE(errorOf("duration_s: 3", "duration: 3").find("study.yaml:11: trajectory.duration is no known key"),
             std::string::npos);
-  EXPECT_NE(errorOf("filter: odometry", "filtre: odometry").find("study.yaml:17: filtre is no known key"),
+  EXPECT_NE(errorOf("filter: odometry", "filtre: odometry").find("study.yaml:18: filtre is no known key"),
             std::string::npos);
   EXPECT_NE(errorOf("short enc+gps", "shrot enc+gps").find("matches no scenario and algorithm"), std::string::npos);
 }
