@@ -259,9 +259,10 @@ double BandPlanner::angleToAdvice(const PlanInput& input, const BandCandidate& c
   return std::abs(std::remainder(std::atan2(advice_->y, advice_->x) - theta_p, 2 * M_PI));
 }
 
-/// The same curve, no faster than the model would go.
+/// The same curve, no faster than the model would go. A planner that sees people in time knows better when to slow
+/// down.
 mrpt::math::TTwist2D BandPlanner::slowedByAdvice(const TrajectorySpeed& wanted) const {
-  if (!advice_ || !params_.selection.hrvo_speed || wanted.v <= 0) return {wanted.v, 0, wanted.w};
+  if (!advice_ || !params_.selection.hrvo_speed || view_.movesInTime() || wanted.v <= 0) return {wanted.v, 0, wanted.w};
   const double v = std::min(wanted.v, std::hypot(advice_->x, advice_->y));
   return {v, 0, wanted.w * (wanted.v > kStanding ? v / wanted.v : 1)};
 }

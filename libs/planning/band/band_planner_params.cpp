@@ -37,7 +37,7 @@ void SelectionParams::visit(ParamVisitor& v) {
   v.number("hysteresis", hysteresis, {0, 0.9}, "-", "share by which a class must be cheaper than the last choice");
   v.number("clearance_share", clearance_share, {0, 10}, "-", "share of the clearance cost that counts in the choice");
   v.number("delta_hrvo", delta_hrvo, {0, 1e3}, "1/rad", "weight of the angle to the HRVO direction (4.10)");
-  v.flag("hrvo_speed", hrvo_speed, "pteb: drive no faster than the HRVO velocity is long");
+  v.flag("hrvo_speed", hrvo_speed, "pteb, but not pteb+eteb: drive no faster than the HRVO velocity is long");
   v.number("goal_tolerance_m", goal_tolerance_m, {0.01, 5}, "m", "distance at which the goal is reached");
   v.angle("goal_tolerance_deg", goal_tolerance_rad, {0.1, 180}, "heading at which it is, where that matters");
   v.number("horizon_m", horizon_m, {1, 100}, "m", "length of a band along a global path");

@@ -36,6 +36,7 @@ Evasion::Answer Evasion::drive(const PlanInput& input, const ObstacleView& obsta
   const RobotLimits& limits = input.limits;
   Answer out{{}, kNever, params_.clearance_m};
   driven_.clear();
+  driven_.reserve(static_cast<size_t>(params_.ahead_s / params_.step_s) + 2);
   TrajectoryPoint p{0, input.pose, input.twist.vx, input.twist.omega};
   double turned = 0, start = kNever;
   const double reach = limits.radius_m + params_.clearance_m, dt = params_.step_s;
