@@ -66,7 +66,7 @@ std::string summary(const std::vector<BandRow>& rows, const std::string& planner
                 most(of(&BandRow::max_a)), most(of(&BandRow::max_alpha)));
     const auto ways = std::count_if(group.begin(), group.end(), [](const auto& r) { return r.way_exists == "yes"; });
     if (!group.front().way_exists.empty())
-      std::printf("        a way exists in %td; least time of any drive, median %.2f s\n", ways,
+      std::printf("        a way exists in %td; shortest way without bends, median %.2f s\n", ways,
                   median(of(&BandRow::least_s)));
     char text[400];
     std::snprintf(text, sizeof text,
@@ -173,8 +173,9 @@ void addBandCommand(CLI::App& app, Work& work) {
       ->capture_default_str();
   sub->add_flag("--moving", o->moving, "obstacles move at their velocities");
   sub->add_flag("--picture", o->picture, "draw nine of the cold plans, bands.png");
-  sub->add_flag("--verify", o->verify,
-                "look for a way without bands too: columns way_exists and least_s, the time that no drive beats");
+  sub->add_flag(
+      "--verify", o->verify,
+      "look for a way without bands too: columns way_exists and least_s, the time of the shortest way without bends");
   sub->add_flag("--explain", o->explain, "candidates.csv: all classes of each cold plan, cost by term, why not chosen");
   sub->add_option("--threads", o->threads, "for the bands of a plan; the results are the same")
       ->check(CLI::Range(1, 64))

@@ -11,10 +11,10 @@ namespace sidestep {
 /// Whether any way leads from (0, 0) to (8, 0) at the clearance that a band needs, found without bands.
 struct WayVerdict {
   std::string exists;  ///< yes, no, unsure (only a raster coarser than the gap could tell)
-  double least_s = 0;  ///< no drive is shorter [s]; 0 if there is no way
+  double least_s = 0;  ///< of the shortest way on the grid, driven straight on [s]; 0 if there is none
 };
 
-/// Obstacles stand: any-angle A* on a grid of 0.025 m around the field; `least_s` is that of the shortest path driven
+/// Obstacles stand: any-angle A* on a grid of 0.025 m around the field, at the robot's radius; `least_s` is that of the shortest path driven
 /// straight.
 WayVerdict standingWay(const BandProblemCase& problem, const RobotLimits& robot);
 
