@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <thread>
 
 #include "core/errors.h"
@@ -131,6 +132,24 @@ TEST(WorldRunner, AnAxisVariesTheWorld) {
   const auto still = study.runner().run(study.place(0, 0, 0)), walking = study.runner().run(study.place(1, 0, 0));
   EXPECT_NEAR(valueOf(study, still, "min_clearance"), 0.3, 1e-6);
   EXPECT_NE(valueOf(study, walking, "min_clearance"), valueOf(study, still, "min_clearance"));
+}
+
+TEST(WorldRunner, OneOfSeveralGoalsIsDrawnFromThePlaceOfTheOneBefore) {
+  const StudyFile file("scenarios: {one: {file: w.yaml, goals: one}, all: {file: w.yaml}}\nalgorithms: {as-is: {}}\n",
+                       "kind: world\nrobots: {robot: {goals: [{x: 2, y: 0}, {x: 2, y: 5}, {x: -6, y: 5}]}}\n");
+  const Study study = file.read();
+  const auto of = [&](size_t row, size_t run, const char* metric) {
+    return valueOf(study, study.runner().run(study.place(row, 0, run)), metric);
+  };
+  // legs of 2, 5 and 8 m, less the tolerance of 0.3 m
+  std::set<long> lengths;
+  for (size_t run = 0; run < 12; ++run) {
+    EXPECT_EQ(of(0, run, "goals_reached"), 1);
+    lengths.insert(std::lround(of(0, run, "path_length") + 0.3));
+  }
+  EXPECT_EQ(lengths, (std::set<long>{2, 5, 8}));
+  EXPECT_EQ(of(1, 0, "goals_reached"), 3);
+  EXPECT_GT(of(1, 0, "path_length"), 13);
 }
 
 TEST(WorldRunner, RecordedPeopleAreReadOnceFromBesideTheScenario) {
