@@ -14,8 +14,8 @@ struct WayVerdict {
   double least_s = 0;  ///< of the shortest way on the grid, driven straight on [s]; 0 if there is none
 };
 
-/// Obstacles stand: any-angle A* on a grid of 0.025 m around the field, at the robot's radius; `least_s` is that of the shortest path driven
-/// straight.
+/// Obstacles stand: any-angle A* on a grid of 0.025 m around the field, at the robot's radius; `least_s` is that of the
+/// shortest path driven straight.
 WayVerdict standingWay(const BandProblemCase& problem, const RobotLimits& robot);
 
 /// Obstacles move: all places that a disc of that size can be at, step by step in time, on a grid of 0.1 m. The disc

@@ -3,6 +3,7 @@
 // Ways that are timed among what moves, islands of a map, robots longer than wide.
 #include <gtest/gtest.h>
 
+#include "core/random.h"
 #include "planning/band/band_planner.h"
 #include "support/jacobian.h"
 
@@ -80,6 +81,60 @@ TEST(WayTiming, ItBacksOffFromAWalkerWhoCrossesWhereItStands) {
 TEST(WayTiming, WhereSomebodyStandsOnTheWayThereIsNoTime) {
   StraightWay way({walker(4, 0, 0, 0)});
   EXPECT_FALSE(way.search());
+}
+
+TEST(SpaceTimeSearch, ItsDrivesKeepClearAndToTheAccelerations) {
+  // 60 points that go any way at up to 0.7 m/s
+  Random random(4);
+  std::vector<MovingObstacle> people;
+  for (int i = 0; i < 60; ++i) {
+    people.push_back(walker(random.uniform(1, 7), random.uniform(-3, 3), random.uniform(-0.5, 0.5), 0));
+    people.back().velocity.y = random.uniform(-0.5, 0.5);
+    people.back().radius_m = 0;
+  }
+  MovingView in_time;
+  in_time.kind = MovingView::Kind::kInTime;
+  in_time.horizon_s = 30;
+  ObstacleView view;
+  const GridBounds bounds{-5, -8, 13, 8};
+  view.build({{}, {}, people, nullptr}, in_time, bounds, 0.8);
+  SpaceTimeSearch search;
+  SpaceTimeSearch::Query query;
+  query.goal = {8, 0};
+  query.keep_out_m = 0.35;
+  query.bounds = bounds;
+  query.obstacles = &view;
+  Band band;
+  ASSERT_TRUE(search.search(query, band, [](const Band&) { return true; }));
+  EXPECT_EQ(band.back().x, 8);
+  for (double t = 0; t < band.back().t; t += 0.05)
+    for (const auto& o : people) {
+      const BandPose p = bandAt(band, t);
+      // looks 0.25 s apart at up to 1.7 m/s: sqrt(0.35^2 - 0.21^2) = 0.28; half a pixel of the map: 0.035
+      EXPECT_GE(std::hypot(p.x - o.position.x - t * o.velocity.x, p.y - o.position.y - t * o.velocity.y), 0.245) << t;
+    }
+  const BandPose before_end = bandAt(band, band.back().t - 3);  // the straight end has a bend of its own
+  while (band.back().t > before_end.t) band.pop_back();
+  const BandExtremes most = extremesOf(band, {0, 0, false});
+  EXPECT_LE(most.v, 1.001);
+  EXPECT_LE(most.a, 0.501);
+  EXPECT_LE(most.turn_accel, 0.501);
+}
+
+TEST(SpaceTimeSearch, WhereThereIsNoWayItSaysSoWithinItsWork) {
+  const std::vector<Segment> walls = {{{3, -9}, {3, 9}}};
+  ObstacleView view;
+  const GridBounds bounds{-5, -8, 13, 8};
+  view.build({{}, walls, {}, nullptr}, {}, bounds, 0.8);
+  SpaceTimeSearch search;
+  SpaceTimeSearch::Query query;
+  query.goal = {8, 0};
+  query.bounds = bounds;
+  query.obstacles = &view;
+  query.work_max = 5000;
+  Band band;
+  EXPECT_FALSE(search.search(query, band, [](const Band&) { return true; }));
+  EXPECT_LE(search.work(), 5000u + 1000u);
 }
 
 TEST(BandPlanner, WhereEveryBandMeetsSomebodyItLetsThemPass) {
