@@ -47,11 +47,11 @@ struct PfParams {
 /// exp(-EN^0.4 / 2) with EN the length of the innovation (algorithm 3, line 18), blind to R.
 ///
 /// A measurement much sharper than the cloud, which fewer than ten effective particles explain, moves all towards it
-/// (stochastic ensemble Kalman update, Evensen 1994) instead of choosing among them; so does a fix or heading beyond the
-/// 95 % quantile of what the cloud expects of one by itself: where the model is a little wrong, choosing again and again
-/// at the cloud's edge would leave a few particles, all sure of the wrong pose. Measurements of a kind
-/// refused for `recovery_patience_s` draw a share of the particles anew from the measurement; what comes next decides
-/// between old and new.
+/// (stochastic ensemble Kalman update, Evensen 1994) instead of choosing among them; so does a fix or heading beyond
+/// the 95 % quantile of what the cloud expects of one by itself: where the model is a little wrong, choosing again and
+/// again at the cloud's edge would leave a few particles, all sure of the wrong pose. Measurements of a kind refused
+/// for `recovery_patience_s` draw a share of the particles anew from the measurement; what comes next decides between
+/// old and new.
 ///
 /// The constant offset of the IMU's heading, the bias of the gyro and the scale error of the wheels are estimated
 /// beside each particle (Rao-Blackwell; Schoen, Gustafsson, Nordlund 2005): given its path each is Gaussian with a
@@ -112,6 +112,8 @@ class ParticleFilter : public PoseFilter {
   size_t wantedSize(size_t drawn);
   auto row(int k) const { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
   auto row(int k) { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
+
+  static constexpr double kLeastVariance = 1e-12;  // of a measurement said to be exact
 
   ResamplingScheme scheme_;
   std::array<double, 4> gate_{}, unexpected_{};  // NIS bounds by degrees of freedom
