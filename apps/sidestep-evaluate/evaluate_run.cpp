@@ -14,7 +14,9 @@
 
 #include "common/program.h"
 #include "evaluation/metrics_json.h"
+#include "evaluation/study_consistency.h"
 #include "evaluation/study_figures.h"
+#include "evaluation/study_quantiles.h"
 #include "evaluation/study_report.h"
 #include "evaluation/study_runs.h"
 #include "evaluation/study_summary.h"
@@ -135,8 +137,14 @@ void Evaluation::save() {
   folder_.writeText("summary.csv", summaryCsv(lines_));
   const bool whole = runs_->runs().size() == study_.size();
   if (whole) expectations_ = checkExpectations(study_, lines_);
-  const auto figures = drawStudy(study_, lines_, folder_.file(""));
-  folder_.writeText("report.html", reportHtml(study_, lines_, expectations_, figures, folder_.file(""), facts()));
+  const auto quantiles = quantilesOfRuns(study_, runs_->runs());
+  folder_.writeText("quantiles.csv", quantilesCsv(quantiles));
+  const auto consistency = consistencyOf(lines_);
+  if (!consistency.empty()) folder_.writeText("consistency.csv", consistencyCsv(consistency));
+  const auto figures = drawStudy(study_, lines_, medianLines(study_, quantiles), folder_.file(""));
+  ReportFacts f = facts();
+  f.more_tables = quantilesHtml(study_, quantiles) + consistencyHtml(consistency);
+  folder_.writeText("report.html", reportHtml(study_, lines_, expectations_, figures, folder_.file(""), f));
   folder_.writeText("metrics.json", metricsText(expectations_));
 }
 

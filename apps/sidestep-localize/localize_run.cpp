@@ -15,12 +15,14 @@
 #include "datasets/log_reader.h"
 #include "evaluation/metrics_json.h"
 #include "sidestep-localize/ordered_log.h"
+#include "sidestep-localize/side_files.h"
 #include "sidestep-localize/truth_comparison.h"
 
 namespace sidestep {
 namespace {
 
 constexpr uint64_t kEnoughToJudge = 30;  // measurements of a sensor, for a word on its noise
+constexpr double kModesPeriod_s = 1;     // between two looks at where else the robot may be
 
 double steadySeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -38,25 +40,6 @@ mrpt::obs::CObservationRobotPose asObservation(const Estimate& e) {
     for (int j = 0; j < 3; ++j) o.pose.cov(at[i], at[j]) = P(i, j);
   return o;
 }
-
-/// lost.csv: the probability that an estimate is off by more than 1 m, from filters that can tell.
-class LostFile {
- public:
-  explicit LostFile(const std::string& file) : name_(file) {}
-  void write(double time_s, double probability) {
-    if (!file_.is_open()) {
-      file_.open(name_);
-      file_ << "time_s,probability\n";
-    }
-    char row[64];
-    std::snprintf(row, sizeof row, "%.6f,%.6f\n", time_s, probability);
-    file_ << row;
-  }
-
- private:
-  std::string name_;
-  std::ofstream file_;
-};
 
 /// The ellipses of the picture, some 20 to 40 along whatever length.
 class Ellipses {
@@ -90,6 +73,7 @@ class Run {
         log_(folder_.file("estimate.rawlog"), commandLine()),
         tum_(folder_.file("trajectory.tum")) {
     if (config.smooth) localizer_.smoothAtEnd();
+    localizer_.recordMore(kModesPeriod_s);
   }
 
   ExitCode go();
@@ -127,6 +111,8 @@ class Run {
   TrajectoryFigure figure_;
   Ellipses ellipses_;
   LostFile lost_{folder_.file("lost.csv")};
+  ModesFile modes_{folder_.file("modes.csv")};
+  InnovationLog innovations_;
   std::vector<std::string> warnings_;
   double begin_s_ = steadySeconds(), first_s_ = 0, last_s_ = 0;
   uint64_t estimates_ = 0;
@@ -153,7 +139,8 @@ void Run::tell(const Estimate& e) {
   figure_.estimate.add(e.belief.mean.x, e.belief.mean.y);
   figure_.odometry.add(e.odometry.x, e.odometry.y);
   ellipses_.add(e);
-  if (e.lost_probability) lost_.write(e.time_s, *e.lost_probability);
+  lost_.write(e);
+  modes_.write(e);
   truth_.add(e);
   ++estimates_;
 }
@@ -161,6 +148,7 @@ void Run::tell(const Estimate& e) {
 void Run::take() {
   for (const auto& e : localizer_.takeEstimates()) tell(e);
   for (const auto& p : localizer_.takeFixes()) figure_.fixes.add(p.x, p.y);
+  innovations_.take(localizer_);
 }
 
 void Run::read(LogReader& reader, const char* what, const std::function<void(const LogEntry&)>& handle) {
@@ -188,7 +176,10 @@ void Run::filter() {
 
 /// The log is read twice: once for the estimates, which wait for its end, once to write it with them.
 void Run::smooth() {
-  read(reader_, "localizing", [this](const LogEntry& e) { feed_.feed(e); });
+  read(reader_, "localizing", [this](const LogEntry& e) {
+    feed_.feed(e);
+    innovations_.take(localizer_);
+  });
   localizer_.finish();
   const auto estimates = localizer_.takeEstimates();
   for (const auto& p : localizer_.takeFixes()) figure_.fixes.add(p.x, p.y);
@@ -235,15 +226,17 @@ LocalizationMetrics Run::metrics() const {
     out.refused = s.refused;
     out.nis_dof = s.nis_dof;
     if (s.nis_count > 0) out.mean_nis = s.nis_sum / static_cast<double>(s.nis_count);
-    if (s.nis_count >= kEnoughToJudge && config_.filter == "ekf")
-      out.consistency =
-          judge(*out.mean_nis, s.nis_count, s.nis_dof, config_.ekf.gate ? config_.ekf.gate_probability : 1);
+    out.nis_independent = s.nis_independent;
+    if (s.nis_count >= kEnoughToJudge && config_.gateProbability())
+      out.consistency = judgeSensor(*out.mean_nis, static_cast<double>(s.nis_count), s.nis_independent, s.nis_dof,
+                                    *config_.gateProbability());
   }
   for (const auto& [label, reasons] : reader_.refused())
     for (const auto& [reason, n] : reasons) {
       m.sensors[label].refused[reason] += n;
       m.sensors[label].read += n;
     }
+  modes_.into(m);
   m.partial = reader_.end().damaged || interrupted();
   m.warnings = warnings_;
   return m;
@@ -256,6 +249,11 @@ void Run::draw(const LocalizationMetrics& m) const {
   if (m.estimate) figure.truth = truth_.truthLine(*m.estimate);
   figure.ellipses = ellipses_.kept();
   drawTrajectory(figure, folder_.file("trajectory.png"));
+  if (!config_.gateProbability()) return;
+  auto consistency = innovations_.figure(m, *config_.gateProbability());
+  consistency.title = figure.title;
+  consistency.start_s = first_s_;
+  drawConsistency(consistency, folder_.file("consistency.png"));
 }
 
 void Run::checkSensors() {

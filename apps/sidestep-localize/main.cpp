@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   app.add_option("--from", o.from_s, "start this long after the first stamp [s]")->type_name("S");
   app.add_option("--to", o.to_s, "stop this long after the first stamp [s]")->type_name("S");
   app.add_option("--seed", o.seed, "of the random numbers")->type_name("N");
-  app.add_flag("--no-picture", o.no_picture, "do not draw trajectory.png");
+  app.add_flag("--no-picture", o.no_picture, "do not draw trajectory.png and consistency.png");
   app.add_flag("--write-config", o.write_config, "print all parameters as commented YAML and exit");
   app.footer(
       "Example (a real log that comes with the Debian package mrpt-common):\n"

@@ -11,12 +11,13 @@
 #include "sidestep-plan/band_run.h"
 #include "sidestep-plan/commands.h"
 #include "sidestep-plan/thread_pool.h"
+#include "sidestep-plan/way_exists.h"
 
 namespace sidestep {
 namespace {
 
 struct Options : BandCommandOptions {
-  bool moving = false, picture = false;
+  bool moving = false, picture = false, verify = false, explain = false;
   std::optional<int> classes;
   int repeats = 5;
   Options() { output = "sidestep-plan-band-out"; }
@@ -32,8 +33,11 @@ double nowMs(bool one_thread) {
 std::string csvLine(const BandRow& r, const std::string& planner) {
   std::string line = std::to_string(r.n_obs) + "," + std::to_string(r.seed) + "," + planner + "," + r.status;
   char text[400];
-  std::snprintf(text, sizeof text, ",%.4f,%.4f,%d,%.4f,%.4f,%.5f,%.5f,%.5f,%.5f,%.4f\n", r.time_ms, r.warm_ms, r.poses,
+  std::snprintf(text, sizeof text, ",%.4f,%.4f,%d,%.4f,%.4f,%.5f,%.5f,%.5f,%.5f,%.4f", r.time_ms, r.warm_ms, r.poses,
                 r.transition_s, r.min_dist_m, r.max_v, r.max_w, r.max_a, r.max_alpha, r.cost);
+  line += text;
+  if (r.way_exists.empty()) return line + "\n";
+  std::snprintf(text, sizeof text, ",%s,%.4f\n", r.way_exists.c_str(), r.least_s);
   return line + text;
 }
 
@@ -60,6 +64,10 @@ std::string summary(const std::vector<BandRow>& rows, const std::string& planner
     std::printf("  %5d %8zu %5td %8.3f %8.3f %13.2f %10.4f %14.4f\n", n, group.size(), clear,
                 median(of(&BandRow::time_ms)), median(of(&BandRow::warm_ms)), median(of(&BandRow::transition_s)),
                 most(of(&BandRow::max_a)), most(of(&BandRow::max_alpha)));
+    const auto ways = std::count_if(group.begin(), group.end(), [](const auto& r) { return r.way_exists == "yes"; });
+    if (!group.front().way_exists.empty())
+      std::printf("        a way exists in %td; shortest way without bends, median %.2f s\n", ways,
+                  median(of(&BandRow::least_s)));
     char text[400];
     std::snprintf(text, sizeof text,
                   ",\n  \"%d\": {\"problems\": %zu, \"clear\": %td, \"time_ms\": %.4f, \"warm_ms\": %.4f, "
@@ -69,6 +77,33 @@ std::string summary(const std::vector<BandRow>& rows, const std::string& planner
     json += text;
   }
   return json + "\n}\n";
+}
+
+void verify(const BandProblemCase& problem, const BandRun& run, BandRow& row) {
+  const WayVerdict way = run.moving ? movingWay(problem, run.robot) : standingWay(problem, run.robot);
+  row.way_exists = way.exists;
+  row.least_s = way.least_s;
+}
+
+/// Each candidate of a cold plan with the cost of each term, and why it was not chosen; a header before the first.
+std::string candidateLines(const BandProblemCase& p, const PlanOutput& out, bool header) {
+  std::string lines;
+  const auto add = [&lines](double value) { lines += ',' + shortestNumber(value); };
+  if (header && !out.candidates.empty()) {
+    lines = "n_obs,seed,candidate,chosen,rejected,total,transition_s";
+    for (const auto& [term, cost] : out.candidates.front().costs) lines += "," + term;
+    lines += "\n";
+  }
+  int n = 0;
+  for (const auto& c : out.candidates) {
+    lines += std::to_string(p.n_obs) + "," + std::to_string(p.seed) + "," + std::to_string(n++) + ",";
+    lines += (c.rejected.empty() ? "1," : "0,") + c.rejected;
+    add(c.total);
+    add(c.trajectory.back().after_s);
+    for (const auto& [term, cost] : c.costs) add(cost);
+    lines += "\n";
+  }
+  return lines;
 }
 
 ExitCode runBand(const Options& o) {
@@ -93,24 +128,33 @@ ExitCode runBand(const Options& o) {
   if (o.threads > 1) planner.useThreads([&](int n, const auto& f) { pool.run(n, f); });
   const bool one = o.threads == 1;
   BandPicture picture;
+  std::string explained;
   const size_t apart = std::max<size_t>(problems.size() / 9, 1);  // nine of them, evenly chosen
-  BandRun run{robot, o.moving, o.repeats, 50, [one] { return nowMs(one); }, {}};
+  BandRun run{robot, o.moving, o.repeats, 50, [one] { return nowMs(one); }, {}, {}};
   if (o.picture)
     run.planned_cold = [&](const BandProblemCase& p, const BandPlanner& bands) {
       if (static_cast<size_t>(&p - problems.data()) % apart == 0 && !picture.full())
         picture.add(p, bands, robot.radius_m);
     };
+  planner.explain(o.explain);
+  if (o.explain)
+    run.explained = [&](const BandProblemCase& p, const PlanOutput& out) {
+      explained += candidateLines(p, out, explained.empty());
+    };
   ProgressBar bar("band", o.quiet);
   std::string csv =
-      "n_obs,seed,planner,status,time_ms,warm_ms,poses,transition_s,min_dist_m,max_v,max_w,max_a,max_alpha,cost\n";
+      "n_obs,seed,planner,status,time_ms,warm_ms,poses,transition_s,min_dist_m,max_v,max_w,max_a,max_alpha,cost";
+  csv += o.verify ? ",way_exists,least_s\n" : "\n";
   std::vector<BandRow> rows;
   for (const auto& problem : problems) {
     if (interrupted()) break;
     rows.push_back(runBandProblem(problem, run, planner));
+    if (o.verify) verify(problem, run, rows.back());
     csv += csvLine(rows.back(), o.planner);
     bar.update(static_cast<double>(rows.size()) / static_cast<double>(problems.size()));
   }
   folder.writeText("results.csv", csv);
+  if (o.explain) folder.writeText("candidates.csv", explained);
   if (o.picture) picture.write(folder.file("bands.png"));
   if (!rows.empty()) folder.writeText("metrics.json", summary(rows, o.planner));
   return rows.size() < problems.size() ? ExitCode::kInterrupted : ExitCode::kDone;
@@ -129,6 +173,10 @@ void addBandCommand(CLI::App& app, Work& work) {
       ->capture_default_str();
   sub->add_flag("--moving", o->moving, "obstacles move at their velocities");
   sub->add_flag("--picture", o->picture, "draw nine of the cold plans, bands.png");
+  sub->add_flag(
+      "--verify", o->verify,
+      "look for a way without bands too: columns way_exists and least_s, the time of the shortest way without bends");
+  sub->add_flag("--explain", o->explain, "candidates.csv: all classes of each cold plan, cost by term, why not chosen");
   sub->add_option("--threads", o->threads, "for the bands of a plan; the results are the same")
       ->check(CLI::Range(1, 64))
       ->type_name("N")

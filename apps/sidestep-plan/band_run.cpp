@@ -81,7 +81,10 @@ void describe(const BandCandidate& best, const BandProblemCase& problem, const B
 }  // namespace
 
 BandRow runBandProblem(const BandProblemCase& problem, const BandRun& run, BandPlanner& planner) {
-  BandRow row{problem.n_obs, problem.seed, "none"};
+  BandRow row;
+  row.n_obs = problem.n_obs;
+  row.seed = problem.seed;
+  row.status = "none";
   PlanOutput out;
   std::vector<double> cold, warm;
   Scene scene(problem, run);
@@ -93,6 +96,7 @@ BandRow runBandProblem(const BandProblemCase& problem, const BandRun& run, BandP
   }
   if (const auto* best = planner.chosen()) describe(*best, problem, run, row);
   if (run.planned_cold) run.planned_cold(problem, planner);
+  if (run.explained) run.explained(problem, out);
   for (const auto& c : planner.candidates()) row.classes += c.alive ? 1 : 0;
   for (int k = 0; k < run.replans && out.status != PlanOutput::Status::kGoalReached; ++k) {
     scene.advance(out.command);

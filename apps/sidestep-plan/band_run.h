@@ -17,6 +17,8 @@ struct BandRow {
   int poses = 0;
   double transition_s = 0, min_dist_m = 0, max_v = 0, max_w = 0, max_a = 0, max_alpha = 0, cost = 0;
   int classes = 0;
+  std::string way_exists;  ///< WayVerdict, "" if not asked for
+  double least_s = 0;
 };
 
 /// One problem of a band: start (0, 0, 0) at rest, goal (8, 0), point obstacles.
@@ -26,7 +28,8 @@ struct BandRun {
   int repeats = 5, replans = 50;
   std::function<double()> cpu_ms;  ///< a clock
   std::function<void(const BandProblemCase&, const BandPlanner&)>
-      planned_cold;  ///< told after the cold plan; may be empty
+      planned_cold;                                                          ///< told after the cold plan; may be empty
+  std::function<void(const BandProblemCase&, const PlanOutput&)> explained;  ///< the same
 };
 
 /// Plans cold `repeats` times, then `replans` times while the robot drives what was ordered and obstacles move on.

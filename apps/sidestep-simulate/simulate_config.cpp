@@ -9,13 +9,10 @@ namespace sidestep {
 void SimulateConfig::visit(ParamVisitor& v) {
   v.choice("kind", kind, {"localization", "world"}, "what the scenario is about");
   v.integer("seed", seed, {0, 2e9}, "of the random numbers");
-  if (kind == "world") {
+  if (kind == "world")
     world.visit(v);
-    v.section("planners", "parameters of local planners, for all robots",
-              [this](ParamVisitor& s) { planners.visit(s); });
-  } else {
+  else
     localization.visit(v);
-  }
 }
 
 void SimulateConfig::check() const {
@@ -25,11 +22,31 @@ void SimulateConfig::check() const {
     localization.check();
 }
 
+namespace {
+
+/// Each of the planners asked for, of which pictures of what they consider can be made, or the scenario's.
+void checkSnapshots(const SimulateOptions& o, const std::string& scenarios_own) {
+  for (const auto& name : o.planners.empty() ? std::vector<std::string>{scenarios_own} : o.planners)
+    if (!isLocalPlanner(name)) throw ConfigError("--snapshots: " + name + " is no local planner, it considers nothing");
+}
+
+}  // namespace
+
 SimulateConfig effectiveConfig(const SimulateOptions& o) {
   SimulateConfig c;
   if (!o.scenario.empty()) readYaml(o.scenario, [&](ParamVisitor& v) { c.visit(v); });
   if (o.seed && *o.seed < 0) throw ConfigError("--seed " + std::to_string(*o.seed) + ": must not be negative");
   if (o.seed) c.seed = *o.seed;
+  if (!o.planners.empty() || !o.snapshots_s.empty()) {
+    if (c.kind != "world") throw ConfigError("--planner, --snapshots: only of scenarios of kind: world");
+    if (o.planners.size() > 1 && o.snapshots_s.empty())
+      throw ConfigError("--planner: more than one only with --snapshots");
+    WorldParams& world = c.world.world;
+    if (world.robot_names.empty()) return c;  // an error of its own later
+    std::string& planner = world.robots.at(world.robot_names[0]).planner;
+    if (!o.snapshots_s.empty()) checkSnapshots(o, planner);
+    if (!o.planners.empty()) planner = o.planners[0];
+  }
   return c;
 }
 

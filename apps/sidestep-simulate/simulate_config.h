@@ -3,11 +3,11 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/params.h"
-#include "planning/planners.h"
+#include "evaluation/world_scenario.h"
 #include "simulation/localization_scenario.h"
-#include "simulation/world_params.h"
 
 namespace sidestep {
 
@@ -15,7 +15,9 @@ namespace sidestep {
 struct SimulateOptions {
   std::string scenario, output = "out";
   std::optional<int> seed;
-  bool overwrite = false, quiet = false, no_picture = false, video = false, write_config = false;
+  std::vector<std::string> planners;  ///< of the first robot, instead of the scenario's; more than one: for snapshots
+  std::vector<double> snapshots_s;
+  bool overwrite = false, quiet = false, no_picture = false, video = false, explain = false, write_config = false;
 };
 
 /// All that a scenario file may hold.
@@ -23,8 +25,7 @@ struct SimulateConfig {
   std::string kind = "localization";
   int seed = 1;
   LocalizationScenarioParams localization;
-  WorldParams world;
-  LocalPlannerParams planners;
+  WorldScenario world;
 
   /// Shows what belongs to `kind`.
   void visit(ParamVisitor& v);

@@ -22,6 +22,7 @@ ExitCode simulate(const SimulateOptions& options) {
     throw ConfigError("no SCENARIO given; for example sidestep-simulate share/scenarios/circle.yaml -o out");
   config.check();
   if (options.video && config.kind != "world") throw ConfigError("--video: only of scenarios of kind: world");
+  if (options.explain && config.kind != "world") throw ConfigError("--explain: only of scenarios of kind: world");
   if (options.video) requireFfmpeg();
   const OutputFolder folder(options.output, options.overwrite);
   folder.writeConfiguration(fields);

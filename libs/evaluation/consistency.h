@@ -6,29 +6,43 @@
 
 namespace sidestep {
 
-/// Where the mean NIS of a consistent filter lies.
-struct NisBand {
+/// Where the mean NIS or NEES of a consistent filter lies.
+struct ConsistencyBand {
   double expected = 0;       ///< without a gate the degrees of freedom
-  double low = 0, high = 0;  ///< holds the mean of n measurements with 95 %
+  double low = 0, high = 0;  ///< holds the mean with 95 %
 };
 
 /// NIS is chi-square with `dof` degrees of freedom, cut off where a gate lets the share `gate_probability` in (1: no
 /// gate):
 ///   E[x | x < q] = k F_k+2(q) / F_k(q),  E[x^2 | x < q] = k (k + 2) F_k+4(q) / F_k(q),  F_k(q) = gate_probability
-/// @param n    accepted measurements, > 0; the band is by the central limit theorem, for some tens of them
+/// @param n    independent measurements that were accepted, > 0; the band is by the central limit theorem, for some
+/// tens of
+///             them; of fewer it is neesBand's
 /// @param dof  1, 2 or 3
-NisBand nisBand(uint64_t n, int dof, double gate_probability);
+ConsistencyBand nisBand(double n, int dof, double gate_probability);
 
-/// What a mean NIS says of the noise that a filter believes in.
+/// The mean of `effective` independent NEES of `dof` degrees of freedom is chi-square with effective * dof of them, by
+/// effective; its quantiles by Wilson and Hilferty (1931).
+/// @param effective  NormalizedErrors::effectiveCount, >= 1
+ConsistencyBand neesBand(double effective, int dof);
+
+/// What a mean NIS or NEES says of the noise that a filter believes in.
 struct Consistency {
-  NisBand band;
+  ConsistencyBand band;
   std::string verdict;   ///< "consistent", "over-confident" (above the band), "too cautious" (below)
-  double sd_factor = 1;  ///< real sd of the innovations over the believed one
+  double sd_factor = 1;  ///< real sd of the innovations (errors) over the believed one
 };
 
-Consistency judge(double mean_nis, uint64_t n, int dof, double gate_probability);
+/// The factor is the c for which errors of c times the sd, cut off by the same gate, have that mean; infinite if none
+/// is that large.
+Consistency judgeNis(double mean_nis, double n, int dof, double gate_probability);
+Consistency judgeNees(double mean_nees, double effective, int dof);
 
-/// One line for the user, with the name of the sensor.
-std::string consistencyLine(const std::string& label, double mean_nis, const Consistency& c);
+/// The same for a sensor of which `count` measurements were accepted, worth `independent` of their own. Where errors
+/// stay alike the gate, which is by the raised variance, takes nothing away.
+Consistency judgeSensor(double mean_nis, double count, double independent, int dof, double gate_probability);
+
+/// One line for the user. @param label  what is judged; @param measure  "NIS" or "NEES"
+std::string consistencyLine(const std::string& label, const std::string& measure, double mean, const Consistency& c);
 
 }  // namespace sidestep

@@ -7,8 +7,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/poses/CPose2D.h>
 
-#include <cstdlib>
-#include <filesystem>
+#include <algorithm>
 
 #include "core/errors.h"
 #include "datasets/log_reader.h"
@@ -39,6 +38,21 @@ class SimulatedPairs {
   DriveResult& out_;
 };
 
+/// Sums over the streams of a kind; `kind_of` names the kind of a label.
+template <class KindOf>
+void takeNis(const Localizer& localizer, const LocalizeConfig& config, const KindOf& kind_of, DriveResult& out) {
+  out.gate_probability = config.gateProbability();
+  for (const auto& s : localizer.sensors()) {
+    if (s.nis_count == 0) continue;
+    const std::string kind = kind_of(s.label);
+    auto it = std::find_if(out.nis.begin(), out.nis.end(), [&](const auto& k) { return k.kind == kind; });
+    if (it == out.nis.end()) it = out.nis.insert(it, {kind, 0, 0, 0, s.nis_dof});
+    it->sum += s.nis_sum;
+    it->count += static_cast<double>(s.nis_count);
+    it->independent += s.nis_independent;
+  }
+}
+
 bool isLost(const LogEntry& e, double time_s, const SignalLoss& loss) {
   if (!loss.any() || !loss.covers(time_s)) return false;
   if (e.kind == SensorKind::kImu) return loss.theta;
@@ -61,6 +75,8 @@ DriveResult localizeSimulated(const LocalizationScenario& scenario, const Locali
             gps = localizer.addStream("gps");
   const bool use_imu = config.uses("imu"), use_heading = use_imu && config.robot.imu.heading != "off",
              use_rate = use_imu && config.robot.imu.yaw_rate != "off", use_gps = config.uses("gps");
+  // EN of algorithm 3 is one number for all that is measured at an instant; to a Gaussian it is the same by parts.
+  const bool as_one = config.filter == "pf" && config.pf.likelihood == "printed";
   DriveResult out;
   out.gave_fixes = use_gps;
   SimulatedPairs pairs(scenario.truth(), out);
@@ -73,14 +89,21 @@ DriveResult localizeSimulated(const LocalizationScenario& scenario, const Locali
     if (step.imu && use_rate && !(lost && loss.theta)) localizer.yawRate(imu, now, step.imu->yaw_rate);
     reading.odometry = mrpt::poses::CPose2D(step.odometry.pose);
     localizer.odometry(odometry, now, reading);
-    if (step.imu && step.imu->has_yaw && use_heading && !(lost && loss.theta))
-      localizer.heading(imu, now, step.imu->yaw);
-    if (step.gps && use_gps && !(lost && loss.xy)) localizer.position(gps, now, step.gps->x, step.gps->y);
+    const bool heading = step.imu && step.imu->has_yaw && use_heading && !(lost && loss.theta);
+    const bool fix = step.gps && use_gps && !(lost && loss.xy);
+    if (as_one && heading && fix && localizer.started()) {
+      localizer.positionHeading(gps, now, step.gps->x, step.gps->y, step.imu->yaw);
+    } else {
+      if (heading) localizer.heading(imu, now, step.imu->yaw);
+      if (fix) localizer.position(gps, now, step.gps->x, step.gps->y);
+    }
     pairs.take(localizer);
   }
   localizer.finish();
   pairs.take(localizer);
   out.fixes = localizer.takeFixes();
+  takeNis(
+      localizer, config, [](const std::string& label) { return label; }, out);
   return out;
 }
 
@@ -150,26 +173,9 @@ DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& c
   take();
   out.fixes = localizer.takeFixes();
   out.gave_fixes = config.uses("gps") && !out.fixes.empty();
+  takeNis(
+      localizer, config, [&](const std::string& label) { return word(feed.kinds().at(label)); }, out);
   return out;
-}
-
-std::string resolvedPath(const std::string& path, const std::string& study_file) {
-  std::string out = path;
-  for (size_t from = out.find("${"); from != std::string::npos; from = out.find("${", from)) {
-    const size_t to = out.find('}', from);
-    if (to == std::string::npos) throw ConfigError(study_file + ": " + path + ": ${ without }");
-    const std::string name = out.substr(from + 2, to - from - 2);
-    const char* value = std::getenv(name.c_str());
-    if (value == nullptr || *value == '\0')
-      throw DatasetError::missing(
-          study_file + ": " + path + ": the environment variable " + name +
-          " is not set; set it to the folder of the data, or leave these scenarios out with --scenarios");
-    out.replace(from, to + 1 - from, value);
-  }
-  const std::filesystem::path file(out);
-  return (file.is_absolute() ? file : std::filesystem::path(study_file).parent_path() / file)
-      .lexically_normal()
-      .string();
 }
 
 }  // namespace sidestep

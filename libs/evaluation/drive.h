@@ -21,12 +21,23 @@ struct SignalLoss {
   bool covers(double time_s) const { return time_s >= from_s && time_s < to_s; }
 };
 
+/// NIS of all measurements of one kind that were accepted.
+struct KindNis {
+  std::string kind;  ///< "gps", "imu", "beacons"
+  double sum = 0;
+  double count = 0, independent = 0;
+  int dof = 0;
+};
+
 /// What a localizer made of a drive.
 struct DriveResult {
   std::vector<PosePair> pairs;                ///< time from the start of the drive [s], in the order of time
   std::vector<mrpt::math::TPose2D> odometry;  ///< beside each pair, from the same start
   std::vector<mrpt::math::TPoint2D> fixes;
   bool gave_fixes = false;  ///< a sensor of positions was used
+  bool aligned = false;     ///< laid onto the truth: NEES judges nothing
+  std::vector<KindNis> nis;
+  std::optional<double> gate_probability;  ///< LocalizeConfig::gateProbability
 };
 
 /// Localizes one seeded run of a simulated drive.
@@ -53,9 +64,5 @@ DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& c
 
 /// A true pose in the map's frame, as the configuration places the truth's.
 mrpt::math::TPose2D truthInMap(const LocalizeConfig& config, const mrpt::math::TPose2D& truth);
-
-/// `path` with ${NAME} replaced by the environment's, and started at the folder of `study_file` where it is relative.
-/// @throws DatasetError if the environment does not say.
-std::string resolvedPath(const std::string& path, const std::string& study_file);
 
 }  // namespace sidestep

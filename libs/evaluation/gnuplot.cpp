@@ -71,6 +71,13 @@ int waitFor(pid_t child) {
 
 }  // namespace
 
+const char* figureColour(size_t index) {
+  static const std::array<const char*, 12> kColours = {"#0072b2", "#e69f00", "#009e73", "#d55e00",
+                                                       "#cc79a7", "#56b4e9", "#f0e442", "#404040",
+                                                       "#882255", "#332288", "#999933", "#bbbbbb"};
+  return kColours[index % kColours.size()];
+}
+
 std::string gnuplotQuoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) {

@@ -9,6 +9,9 @@ namespace sidestep {
 /// @throws Error (internal) if gnuplot is not installed, or with the last line that it wrote.
 void runGnuplot(const std::string& script, const std::string& what);
 
+/// Colours of Okabe and Ito and some more, told apart with any colour vision; as gnuplot writes them.
+const char* figureColour(size_t index);
+
 /// `text` as a gnuplot string that means just these characters.
 std::string gnuplotQuoted(const std::string& text);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
+#include "evaluation/data_path.h"
 #include "evaluation/laser_trial.h"
 #include "evaluation/map_drive.h"
 #include "evaluation/trajectory_figure.h"

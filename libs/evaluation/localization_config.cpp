@@ -64,6 +64,12 @@ Expectation LocalizeConfig::expectation() const {
   return {expectsFixes(), uses("imu") && robot.imu.heading != "off", offset_sd};
 }
 
+std::optional<double> LocalizeConfig::gateProbability() const {
+  if (filter == "ekf") return ekf.gate ? ekf.gate_probability : 1;
+  if (filter == "pf") return pf.likelihood == "gaussian" ? pf.gate_probability : 1;
+  return std::nullopt;
+}
+
 void LocalizeConfig::check(const std::string& where) const {
   checkSensors(sensors, where);
   robot.odometry.check();

@@ -38,6 +38,9 @@ struct LocalizeConfig {
   bool expectsFixes() const { return uses("gps") && (filter != "mcl" || !sensors.empty()); }
   /// What its sensors can tell of the start.
   Expectation expectation() const;
+  /// Share of good measurements that the filter's gate lets in, 1 without a gate; nothing where there is no NIS to
+  /// judge.
+  std::optional<double> gateProbability() const;
   /// @param where  what named the sensors, for the message
   /// @throws ConfigError for a sensor that is none, wheels without sizes, beacons that are used but not known.
   void check(const std::string& where) const;

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/localization_runner.h"
 
-#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <mutex>
+#include <tuple>
 
 #include "core/errors.h"
+#include "evaluation/data_path.h"
 #include "evaluation/drive.h"
 #include "evaluation/drive_metrics.h"
+#include "evaluation/overlay_yaml.h"
 #include "evaluation/study.h"
 #include "evaluation/trajectory_figure.h"
 
@@ -46,22 +50,6 @@ struct ScenarioEntry {
   }
 };
 
-bool isBlank(const std::string& yaml) { return yaml.find_first_not_of(" \n") == std::string::npos; }
-
-/// All of `fields` as YAML without its comments.
-std::string plainYaml(const Visit& fields) {
-  std::string out, all = writeYaml(fields);
-  for (size_t at = 0; at < all.size();) {
-    const size_t end = std::min(all.find('\n', at), all.size());
-    std::string line = all.substr(at, end - at);
-    if (const auto note = line.find("  # "); note != std::string::npos) line.resize(note);
-    if (line.find_first_not_of(' ') != std::string::npos && line[line.find_first_not_of(' ')] != '#')
-      out += line + "\n";
-    at = end + 1;
-  }
-  return out;
-}
-
 class LocalizationRunner final : public StudyRunner {
  public:
   explicit LocalizationRunner(std::string study_file) : file_(std::move(study_file)) {}
@@ -96,6 +84,11 @@ class LocalizationRunner final : public StudyRunner {
   DriveResult localize(const StudyPlace& place, const SignalLoss& loss) const;
   SignalLoss lossOf(const StudyPlace& place) const;
 
+  std::shared_ptr<const DriveErrors> twinOf(const StudyPlace& place) const;
+
+  using TwinKey = std::tuple<uint64_t, uint64_t, uint64_t, size_t>;
+  mutable std::mutex twins_mutex_;
+  mutable std::map<TwinKey, std::shared_ptr<const DriveErrors>> twins_;
   std::string file_;
   std::vector<ScenarioEntry> scenarios_;
   std::vector<std::string> algorithms_;
@@ -206,10 +199,29 @@ DriveResult LocalizationRunner::localize(const StudyPlace& place, const SignalLo
   return result;
 }
 
+/// The twin's errors. It is the same for all lengths and kinds of loss, so it is run once.
+std::shared_ptr<const DriveErrors> LocalizationRunner::twinOf(const StudyPlace& place) const {
+  const auto& s = scenarios_[place.scenario];
+  const TwinKey key{textHash(s.set + '\n' + s.log + '\n' + s.ground_truth + '\n' + s.config), place.world_seed,
+                    place.algorithm_seed, place.algorithm};
+  {
+    const std::lock_guard lock(twins_mutex_);
+    if (const auto it = twins_.find(key); it != twins_.end()) return it->second;
+  }
+  auto made = std::make_shared<const DriveErrors>(errorsOf(localize(place, {})));  // the same, whoever makes it
+  const std::lock_guard lock(twins_mutex_);
+  return twins_.emplace(key, std::move(made)).first->second;
+}
+
 std::vector<double> LocalizationRunner::run(const StudyPlace& place) const {
   const SignalLoss loss = lossOf(place);
-  const DriveResult twin = loss.any() ? localize(place, {}) : DriveResult{};
-  return driveMetrics(localize(place, loss), twin, loss, scenarios_[place.scenario].interruption.settle_s);
+  if (loss.any() && scenarios_[place.scenario].configs[place.algorithm].filter == "odometry") {
+    DriveResult reckoned = localize(place, loss);
+    layOntoTruthAt(loss.from_s, reckoned);
+    return driveMetrics(reckoned, {}, loss, 0);
+  }
+  const auto twin = loss.any() ? twinOf(place) : std::make_shared<const DriveErrors>();
+  return driveMetrics(localize(place, loss), *twin, loss, scenarios_[place.scenario].interruption.settle_s);
 }
 
 bool LocalizationRunner::draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const {

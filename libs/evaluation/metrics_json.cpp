@@ -55,6 +55,21 @@ Json toJson(const std::optional<TrajectoryErrors>& errors) {
   return json;
 }
 
+void addNees(Json& json, const TrajectoryErrors& errors) {
+  json["mean_nees"] = orNull(errors.mean_nees);
+  if (!errors.mean_nees) return;
+  json["nees_dof"] = errors.nees.dof();
+  json["nees_independent"] = orNull(errors.nees.effectiveCount());
+  if (const auto& c = errors.consistency) {
+    json["nees_low"] = orNull(c->band.low);
+    json["nees_high"] = orNull(c->band.high);
+    json["sd_factor"] = orNull(c->sd_factor);
+    json["verdict"] = c->verdict;
+  } else {
+    json["verdict"] = "not judged: the estimate was laid onto the truth";
+  }
+}
+
 Json toJson(const SensorCounts& counts) {
   Json refused = Json::object();
   for (const auto& [reason, count] : counts.refused) refused[reason] = count;
@@ -64,6 +79,7 @@ Json toJson(const SensorCounts& counts) {
                {"mean_nis", orNull(counts.mean_nis)},
                {"nis_dof", counts.nis_dof}};
   if (const auto& c = counts.consistency) {
+    json["nis_independent"] = orNull(counts.nis_independent);
     json["nis_expected"] = orNull(c->band.expected);
     json["nis_low"] = orNull(c->band.low);
     json["nis_high"] = orNull(c->band.high);
@@ -99,10 +115,14 @@ std::string metricsJson(const LocalizationMetrics& metrics) {
   json["peak_memory_mb"] = orNull(metrics.peak_memory_mb);
   json["truth_source"] = metrics.truth_source;
   json["estimate"] = toJson(metrics.estimate);
-  if (metrics.estimate) json["estimate"]["mean_nees"] = orNull(metrics.estimate->mean_nees);
+  if (metrics.estimate) addNees(json["estimate"], *metrics.estimate);
   json["odometry"] = toJson(metrics.odometry);
   json["sensors"] = Json::object();
   for (const auto& [label, counts] : metrics.sensors) json["sensors"][label] = toJson(counts);
+  if (metrics.most_modes) {
+    json["most_modes"] = *metrics.most_modes;
+    json["several_modes_share"] = orNull(metrics.several_modes_share);
+  }
   json["partial"] = metrics.partial;
   json["warnings"] = metrics.warnings;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -123,8 +143,10 @@ std::string errorTable(const LocalizationMetrics& metrics) {
   table += "\n";
   if (metrics.odometry) table += tableRow("odometry  ", *metrics.odometry);
   if (metrics.estimate) table += tableRow("estimate  ", *metrics.estimate);
+  if (metrics.estimate && metrics.estimate->consistency)
+    table += consistencyLine("estimate", "NEES", *metrics.estimate->mean_nees, *metrics.estimate->consistency) + "\n";
   for (const auto& [label, counts] : metrics.sensors)
-    if (counts.consistency) table += consistencyLine(label, *counts.mean_nis, *counts.consistency) + "\n";
+    if (counts.consistency) table += consistencyLine(label, "NIS", *counts.mean_nis, *counts.consistency) + "\n";
   return table;
 }
 

@@ -19,6 +19,7 @@ struct SensorCounts {
   std::optional<double> mean_nis;           ///< consistent if close to nis_dof
   int nis_dof = 0;
   std::optional<Consistency> consistency;  ///< nothing for few measurements, or a filter without NIS
+  double nis_independent = 0;              ///< how many measurements the mean is worth (SensorUse)
 };
 
 /// All that metrics.json says about a run.
@@ -28,6 +29,8 @@ struct LocalizationMetrics {
   double peak_memory_mb = 0;                           ///< [MiB], see peakMemoryMb()
   std::optional<TrajectoryErrors> estimate, odometry;  ///< nothing without truth
   std::map<std::string, SensorCounts> sensors;         ///< by label
+  std::optional<uint64_t> most_modes;                  ///< places at once where the robot may have been (pf, mcl)
+  std::optional<double> several_modes_share;           ///< share of the looks that saw more than one
   std::string truth_source;                            ///< empty without truth
   std::vector<std::string> warnings;
   bool partial = false;  ///< the run was interrupted

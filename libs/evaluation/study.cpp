@@ -65,6 +65,7 @@ void Study::visit(ParamVisitor& v) {
   v.text("baseline", baseline, "algorithm that the others are compared with, run by run; empty: none");
   v.texts("metrics", metrics, "metrics that the tables show; empty: all");
   v.texts("figures", figures, "metrics that figures show");
+  v.texts("medians", medians, "metrics of which tables and figures show the median and quantiles too");
   v.texts("pictures", pictures, "algorithms whose first run of each scenario is drawn");
   v.groups("scenarios", scenarios_, "what is run through", [this](const std::string& name, ParamVisitor& w) {
     const auto i = static_cast<size_t>(std::find(scenarios_.begin(), scenarios_.end(), name) - scenarios_.begin());
@@ -124,6 +125,8 @@ void Study::check() const {
     if (!contains(known, m)) unknown(file_ + ": metrics", "metric of kind " + kind, m, known);
   for (const auto& m : figures)
     if (!contains(known, m)) unknown(file_ + ": figures", "metric of kind " + kind, m, known);
+  for (const auto& m : medians)
+    if (!contains(known, m)) unknown(file_ + ": medians", "metric of kind " + kind, m, known);
   for (const auto& a : pictures)
     if (!contains(algorithms_, a)) unknown(file_ + ": pictures", "algorithm of this study", a, algorithms_);
   if (!baseline.empty() && !contains(algorithms_, baseline))

@@ -49,7 +49,7 @@ class Study {
 
   std::string kind = "localization", title, about, baseline;
   int seed = 1, runs = 20;
-  std::vector<std::string> metrics, figures, pictures;
+  std::vector<std::string> metrics, figures, pictures, medians;
 
  private:
   void check() const;

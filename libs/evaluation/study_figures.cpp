@@ -3,7 +3,6 @@
 #include "evaluation/study_figures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -13,12 +12,6 @@
 
 namespace sidestep {
 namespace {
-
-/// Colours of Okabe and Ito, told apart with any colour vision.
-const std::array<const char*, 12> kColours = {"#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9",
-                                              "#f0e442", "#404040", "#882255", "#332288", "#999933", "#bbbbbb"};
-
-const char* colour(size_t i) { return kColours[i % kColours.size()]; }
 
 using Lines = std::vector<const SummaryLine*>;
 
@@ -78,7 +71,8 @@ std::string rangeAround(const char* axis, double low, double high) {
 std::string logarithm(const char* axis) { return std::string("set logscale ") + axis + " 10\n"; }
 
 /// Rows of the table without an axis: a cluster a scenario, a bar an algorithm.
-void drawBars(const Study& study, const std::string& metric, const Lines& lines, const std::string& png) {
+void drawBars(const Study& study, const std::string& metric, const std::string& what, const Lines& lines,
+              const std::string& png) {
   std::vector<std::string> scenarios;
   for (const auto* l : lines)
     if (scenarios.empty() || scenarios.back() != l->scenario) scenarios.push_back(l->scenario);
@@ -99,7 +93,7 @@ void drawBars(const Study& study, const std::string& metric, const Lines& lines,
     if (data.empty()) continue;
     const std::string block = "$a" + std::to_string(a);
     blocks += block + " << EOD\n" + data + "EOD\n";
-    plots += block + " using 1:2:5 with boxes fs solid 0.85 noborder lc rgb '" + colour(a) + "' title " +
+    plots += block + " using 1:2:5 with boxes fs solid 0.85 noborder lc rgb '" + figureColour(a) + "' title " +
              gnuplotQuoted(algorithms[a]) + ", " + block +
              " using 1:3:(0):($4-$3) with vectors heads size screen 0.004,90 lw 1.2 lc rgb '#202020' notitle, ";
   }
@@ -113,7 +107,7 @@ void drawBars(const Study& study, const std::string& metric, const Lines& lines,
     tics += (i > 0 ? ", " : "") + gnuplotQuoted(scenarios[i]) + " " + std::to_string(i);
   const int width = std::clamp(200 + static_cast<int>(scenarios.size() * (40 + 26 * algorithms.size())), 800, 2200);
   const bool many = scenarios.size() > 4;
-  runGnuplot(blocks + head(axisTitle(metric) + ", mean and 95 % interval", png, width, many ? 640 : 560) +
+  runGnuplot(blocks + head(axisTitle(metric) + ", " + what + " and 95 % interval", png, width, many ? 640 : 560) +
                  (wantsLogarithm(lines) ? logarithm("y") : "set yrange [0:*]\n") + "set ylabel " +
                  gnuplotQuoted(axisTitle(metric)) + "\nset xtics noenhanced (" + tics + ")" +
                  (many ? " rotate by -25" : "") + "\nset xrange [-0.6:" + std::to_string(scenarios.size() - 1) +
@@ -121,54 +115,82 @@ void drawBars(const Study& study, const std::string& metric, const Lines& lines,
              png);
 }
 
-/// Rows on an axis: a curve an algorithm, or, where the group holds several scenarios, one each.
-void drawCurves(const Study& study, const std::string& metric, const std::string& group, const Lines& lines,
-                const std::string& png) {
-  std::map<std::pair<size_t, size_t>, std::string> data;  // by entry and algorithm
-  std::map<size_t, std::string> entries;
+/// What the panels of a figure with an axis have in common.
+struct CurveRange {
+  std::set<double> xs;
+  double low = INFINITY, high = 0, least = INFINITY, most = 0;
+
+  CurveRange(const Study& study, const Lines& lines) {
+    for (const auto* l : lines) {
+      const double x = *study.rows()[l->row].x;
+      xs.insert(x);
+      low = std::min(low, x), high = std::max(high, x);
+      if (l->summary.n > 0 && l->summary.ci_low > 0) least = std::min(least, l->summary.ci_low);
+      if (l->summary.n > 0) most = std::max(most, l->summary.ci_high);
+    }
+  }
+  std::string tics() const {
+    std::string out;
+    for (const double x : xs) out += (out.empty() ? "" : ", ") + shortestNumber(x);
+    return out;
+  }
+};
+
+/// One scenario's curves with their bands, a curve an algorithm. `blocks` takes the data.
+std::string curvePanel(const Study& study, size_t scenario, const Lines& lines, std::string& blocks) {
+  std::map<size_t, std::string> data;  // by algorithm
+  for (const auto* l : lines)
+    if (study.rows()[l->row].scenario == scenario && std::isfinite(l->summary.mean))
+      addNumbers(data[l->algorithm], {*study.rows()[l->row].x, l->summary.mean, l->summary.ci_low, l->summary.ci_high});
+  std::string bands, curves;
+  for (const auto& [algorithm, text] : data) {
+    const std::string block = "$c" + std::to_string(scenario) + "_" + std::to_string(algorithm);
+    blocks += block + " << EOD\n";
+    blocks += text + "EOD\n";
+    bands += block + " using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '" +
+             figureColour(algorithm) + "' notitle, ";
+    curves += block + " using 1:2 with linespoints lw 2 pt 7 ps 0.7 lc rgb '" + figureColour(algorithm) + "' title " +
+              gnuplotQuoted(study.algorithms()[algorithm]) + ", ";
+  }
+  if (curves.empty()) return "";
+  curves.resize(curves.size() - 2);
+  return "plot " + bands + curves + "\n";
+}
+
+/// Rows on an axis: a panel a scenario of the group, side by side, with the same scales.
+void drawCurves(const Study& study, const std::string& metric, const std::string& what, const std::string& group,
+                const Lines& lines, const std::string& png) {
+  const CurveRange range(study, lines);
+  std::vector<std::pair<size_t, std::string>> entries;
   for (const auto* l : lines) {
     const auto& row = study.rows()[l->row];
-    entries[row.scenario] = row.name.substr(0, row.name.rfind('@'));
-    if (std::isfinite(l->summary.mean))
-      addNumbers(data[{row.scenario, l->algorithm}], {*row.x, l->summary.mean, l->summary.ci_low, l->summary.ci_high});
+    if (entries.empty() || entries.back().first != row.scenario)
+      entries.emplace_back(row.scenario, row.name.substr(0, row.name.rfind('@')));
   }
-  std::string blocks, bands, curves, tics;
-  std::set<double> tic_values;
-  double low = INFINITY, high = 0, least = INFINITY, most = 0;
-  for (const auto* l : lines) {
-    const double x = *study.rows()[l->row].x;
-    low = std::min(low, x), high = std::max(high, x);
-    if (l->summary.n > 0) least = std::min(least, l->summary.ci_low), most = std::max(most, l->summary.ci_high);
-    tic_values.insert(x);
+  std::string blocks, panels;
+  for (const auto& [scenario, name] : entries) {
+    const std::string plot = curvePanel(study, scenario, lines, blocks);
+    if (!plot.empty()) panels += "set title " + gnuplotQuoted(name) + " noenhanced font ',12'\n" + plot;
   }
-  for (const double x : tic_values) {
-    if (!tics.empty()) tics += ", ";
-    tics += shortestNumber(x);
-  }
-  const bool log_x = low > 0;
-  size_t number = 0;
-  for (const auto& [key, text] : data) {
-    const std::string block = "$c" + std::to_string(number);
-    const std::string title = study.algorithms()[key.second] + (entries.size() > 1 ? ", " + entries[key.first] : "");
-    blocks += block + " << EOD\n" + text + "EOD\n";
-    bands += block + " using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '" + colour(number) +
-             "' notitle, ";
-    curves += block + " using 1:2 with linespoints lw 2 pt 7 ps 0.7 lc rgb '" + colour(number) + "' title " +
-              gnuplotQuoted(title) + ", ";
-    ++number;
-  }
-  if (curves.empty()) return;
-  curves.resize(curves.size() - 2);
-  runGnuplot(blocks + head(group + ": " + axisTitle(metric) + ", mean and 95 % band", png, 900, 600) +
-                 (wantsLogarithm(lines) ? logarithm("y") + rangeAround("y", least, most) : "set yrange [0:*]\n") +
-                 (log_x ? logarithm("x") + rangeAround("x", low, high) : "") + "set xtics (" + tics + ")\nset xlabel " +
-                 gnuplotQuoted(axisTitle(study.rows()[lines.front()->row].axis)) + " offset 0,0.6\nset ylabel " +
-                 gnuplotQuoted(axisTitle(metric)) + "\nplot " + bands + curves + "\nunset output\n",
+  if (panels.empty()) return;
+  const int columns = std::min<int>(3, static_cast<int>(entries.size()));
+  const int rows = (static_cast<int>(entries.size()) + columns - 1) / columns;
+  const std::string title = group + ": " + axisTitle(metric) + ", " + what + " and 95 % band";
+  const std::string scales =
+      (wantsLogarithm(lines) ? logarithm("y") + rangeAround("y", range.least, range.most)
+                             : "set yrange [0:" + shortestNumber(1.05 * std::max(range.most, 1e-9)) + "]\n") +
+      (range.low > 0 ? logarithm("x") + rangeAround("x", range.low, range.high) : "");
+  runGnuplot(blocks + head(title, png, columns == 1 ? 900 : 520 * columns, 80 + 480 * rows) + scales + "set xtics (" +
+                 range.tics() + ")\nset xlabel " + gnuplotQuoted(axisTitle(study.rows()[lines.front()->row].axis)) +
+                 " offset 0,0.6\nset ylabel " + gnuplotQuoted(axisTitle(metric)) + "\nset multiplot layout " +
+                 std::to_string(rows) + "," + std::to_string(columns) + " title " + gnuplotQuoted(title) +
+                 " noenhanced font ',13'\n" + panels + "unset multiplot\nunset output\n",
              png);
 }
 
-void drawMetric(const Study& study, const std::string& metric, const std::vector<SummaryLine>& lines,
-                const std::string& folder, std::vector<StudyFigure>& out) {
+/// @param what  "mean" or "median"
+void drawMetric(const Study& study, const std::string& metric, const std::string& what,
+                const std::vector<SummaryLine>& lines, const std::string& folder, std::vector<StudyFigure>& out) {
   Lines plain;
   std::vector<std::pair<std::string, Lines>> groups;
   for (const auto& l : lines) {
@@ -187,29 +209,45 @@ void drawMetric(const Study& study, const std::string& metric, const std::vector
     draw(file);
     if (std::filesystem::exists(file)) out.push_back({name, title});
   };
+  const std::string name = what == "mean" ? metric : metric + "-" + what;
+  const std::string title = axisTitle(metric) + (what == "mean" ? "" : ", " + what);
   if (!plain.empty())
-    finish(fileName(metric), axisTitle(metric), [&](const auto& png) { drawBars(study, metric, plain, png); });
+    finish(fileName(name), title, [&](const auto& png) { drawBars(study, metric, what, plain, png); });
   for (const auto& [group, members] : groups)
-    finish(fileName(metric + "-" + group), group + ": " + axisTitle(metric),
-           [&, &g = group, &m = members](const auto& png) { drawCurves(study, metric, g, m, png); });
+    finish(fileName(name + "-" + group), group + ": " + title,
+           [&, &g = group, &m = members](const auto& png) { drawCurves(study, metric, what, g, m, png); });
+}
+
+/// The first run of each row with each algorithm of `pictures`, and all of them over time.
+void drawRuns(const Study& study, const std::string& folder, std::vector<StudyFigure>& out) {
+  const auto& all = study.algorithms();
+  const auto path = [&](const std::string& file) { return (std::filesystem::path(folder) / file).string(); };
+  for (const auto& name : study.pictures) {
+    const auto algorithm = static_cast<size_t>(std::find(all.begin(), all.end(), name) - all.begin());
+    for (size_t row = 0; row < study.rows().size(); ++row) {
+      const std::string title = study.rows()[row].name + ", " + name + ", run 0";
+      const std::string file = fileName("run-" + study.rows()[row].name + "-" + name);
+      if (study.runner().draw(study.place(row, algorithm, 0), title, path(file))) out.push_back({file, title});
+    }
+  }
+  for (size_t row = 0; row < study.rows().size(); ++row) {
+    std::vector<StudyPlace> places;
+    for (const auto& name : study.pictures)
+      places.push_back(study.place(row, static_cast<size_t>(std::find(all.begin(), all.end(), name) - all.begin()), 0));
+    const std::string title = study.rows()[row].name + ", run 0", file = fileName("time-" + study.rows()[row].name);
+    if (!places.empty() && study.runner().drawTogether(places, study.pictures, title, path(file)))
+      out.push_back({file, title + ", over time"});
+  }
 }
 
 }  // namespace
 
 std::vector<StudyFigure> drawStudy(const Study& study, const std::vector<SummaryLine>& lines,
-                                   const std::string& folder) {
+                                   const std::vector<SummaryLine>& medians, const std::string& folder) {
   std::vector<StudyFigure> out;
-  for (const auto& metric : study.figures) drawMetric(study, metric, lines, folder, out);
-  for (const auto& name : study.pictures) {
-    const auto& all = study.algorithms();
-    const auto algorithm = static_cast<size_t>(std::find(all.begin(), all.end(), name) - all.begin());
-    for (size_t row = 0; row < study.rows().size(); ++row) {
-      const std::string title = study.rows()[row].name + ", " + name + ", run 0";
-      const std::string file = fileName("run-" + study.rows()[row].name + "-" + name);
-      if (study.runner().draw(study.place(row, algorithm, 0), title, (std::filesystem::path(folder) / file).string()))
-        out.push_back({file, title});
-    }
-  }
+  for (const auto& metric : study.figures) drawMetric(study, metric, "mean", lines, folder, out);
+  for (const auto& metric : study.medians) drawMetric(study, metric, "median", medians, folder, out);
+  drawRuns(study, folder, out);
   return out;
 }
 

@@ -16,7 +16,8 @@ struct StudyFigure {
 /// numbers, or, for rows on an axis, curves with 95 % bands, one figure a group; for each algorithm of `pictures` the
 /// first run of each scenario. Same results, same bytes.
 /// @throws Error (internal) with gnuplot's message.
+/// @param medians  lines whose mean is a median (medianLines), drawn as further figures
 std::vector<StudyFigure> drawStudy(const Study& study, const std::vector<SummaryLine>& lines,
-                                   const std::string& folder);
+                                   const std::vector<SummaryLine>& medians, const std::string& folder);
 
 }  // namespace sidestep

@@ -144,6 +144,7 @@ std::string reportHtml(const Study& study, const std::vector<SummaryLine>& lines
   add(out, {study.baseline.empty() ? " from the baseline" : " from " + htmlEscaped(study.baseline),
             " over the same runs with its p-value (sign flips).</p>\n"});
   for (const auto& metric : study.reportedMetrics()) out += metricTable(study, lines, metric);
+  out += facts.more_tables;
   if (!figures.empty()) out += "<h2>Figures</h2>\n";
   for (const auto& f : figures) out += figureHtml(f, folder);
   add(out, {"<h2>Command</h2>\n<pre>", htmlEscaped(facts.command), "</pre>\n<h2>Parameters</h2>\n",

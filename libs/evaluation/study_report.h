@@ -14,6 +14,7 @@ struct ReportFacts {
   std::string command, parameters;  ///< the exact command line; effective.yaml
   size_t runs_done = 0, runs_failed = 0, runs_all = 0;
   std::vector<std::string> failures;  ///< scenario, algorithm, reason; each once
+  std::string more_tables;            ///< HTML of further sections, before the figures
 };
 
 /// One HTML page without any other file: tables, figures (as base64), expectations, command and parameters.

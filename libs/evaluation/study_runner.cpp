@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "evaluation/laser_runner.h"
 #include "evaluation/localization_runner.h"
+#include "evaluation/world_runner.h"
 
 namespace sidestep {
 namespace {
@@ -15,8 +16,8 @@ namespace {
 using Maker = std::function<std::unique_ptr<StudyRunner>(const std::string&)>;
 
 const std::map<std::string, Maker>& makers() {
-  static const std::map<std::string, Maker> table = {{"laser", makeLaserRunner},
-                                                     {"localization", makeLocalizationRunner}};
+  static const std::map<std::string, Maker> table = {
+      {"laser", makeLaserRunner}, {"localization", makeLocalizationRunner}, {"world", makeWorldRunner}};
   return table;
 }
 

@@ -41,6 +41,12 @@ class StudyRunner {
   virtual std::vector<double> run(const StudyPlace& place) const = 0;
   /// Draws the run into `png_file`; false if this kind has no picture of it.
   virtual bool draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const = 0;
+  /// Draws runs of several algorithms over each other; false if this kind has no picture of that.
+  /// @param names  of the algorithms, in the order of `places`
+  virtual bool drawTogether(const std::vector<StudyPlace>& /*places*/, const std::vector<std::string>& /*names*/,
+                            const std::string& /*title*/, const std::string& /*png_file*/) const {
+    return false;
+  }
 };
 
 /// Kinds of study by name: the one place to add a line to.

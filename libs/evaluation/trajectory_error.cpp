@@ -101,15 +101,11 @@ class RigidFit {
   double dot_ = 0, cross_ = 0;
 };
 
-/// e^T P^-1 e with e in the truth's frame and P turned into it; nothing if P is unknown or cannot be inverted.
-std::optional<double> nees(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance, double turn) {
-  if (!covariance.allFinite() || covariance.isZero(0)) return std::nullopt;
+/// A covariance of (x, y, yaw) in a frame turned by `turn`.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double turn) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(turn).toRotationMatrix();
-  const Eigen::LLT<Eigen::Matrix3d> llt(R * covariance * R.transpose());
-  if (llt.info() != Eigen::Success) return std::nullopt;
-  const double value = error.dot(llt.solve(error));
-  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  return R * covariance * R.transpose();
 }
 
 /// The second pass: errors of aligned pairs.
@@ -125,10 +121,9 @@ class ErrorSums {
     square_.add(distance * distance);
     max_ = std::max(max_, distance);
     final_ = distance;
-    if (!pair.has_heading) return;
-    const double heading = mrpt::math::wrapToPi(aligned.phi - pair.truth.phi);
-    heading_.add(std::abs(heading));
-    if (const auto value = nees({e.x(), e.y(), heading}, pair.covariance, T_.phi)) nees_.add(*value);
+    const double heading = pair.has_heading ? mrpt::math::wrapToPi(aligned.phi - pair.truth.phi) : 0;
+    if (pair.has_heading) heading_.add(std::abs(heading));
+    nees_.add(pair.time_s, {e.x(), e.y(), heading}, turned(pair.covariance, T_.phi), pair.has_heading);
   }
 
   TrajectoryErrors result() const {
@@ -141,13 +136,15 @@ class ErrorSums {
     errors.final_error_m = final_;
     errors.heading_mean_error_deg = heading_.mean() * 180 / std::numbers::pi;
     errors.heading_samples = heading_.count();
-    if (nees_.count() > 0) errors.mean_nees = nees_.mean();
+    errors.mean_nees = nees_.meanNees();
+    errors.nees = nees_;
     return errors;
   }
 
  private:
   TPose2D T_;
-  Moments distance_, square_, heading_, nees_;
+  Moments distance_, square_, heading_;
+  NormalizedErrors nees_{2000};
   double max_ = 0, final_ = 0;
 };
 
@@ -217,6 +214,8 @@ TrajectoryErrors TrajectoryErrorMeter::measure(Alignment alignment) const {
   impl_->forEach([&](const PosePair& pair) { sums.add(pair); });
   TrajectoryErrors errors = sums.result();
   errors.alignment = applied.alignment;
+  if (applied.alignment == Alignment::kNone && errors.mean_nees)
+    errors.consistency = judgeNees(*errors.mean_nees, errors.nees.effectiveCount(), errors.nees.dof());
   errors.T_truth_estimate = applied.T;
   return errors;
 }

@@ -13,14 +13,13 @@
 namespace sidestep {
 namespace {
 constexpr int kOffset = 3, kBias = 4, kScale = 5, kTurnScale = 6, kPull = 7;
+}  // namespace
 
-/// P(chi^2_k <= q), k = 1, 2, 3 in closed form.
 double chiSquareCdf(double q, int dof) {
   if (dof == 2) return 1 - std::exp(-q / 2);
   const double one = std::erf(std::sqrt(q / 2));
   return dof == 1 ? one : one - std::sqrt(2 * q / M_PI) * std::exp(-q / 2);
 }
-}  // namespace
 
 double chiSquareQuantile(double probability, int dof) {
   double low = 0, high = 1;
@@ -210,6 +209,11 @@ Correction Ekf<N>::update(const Measurement& m, const Eigen::Matrix<double, M, 1
   Eigen::Matrix<double, M, M> S_inverse = S.inverse();
   Correction result{Correction::Reason::kAccepted, nu.dot(S_inverse * nu), M};
   if (!std::isfinite(result.nis) || result.nis < 0) return {Correction::Reason::kNotFinite, 0, M};
+  result.nis_single = result.nis;
+  if (m.raised > 1) {
+    const Eigen::Matrix<double, M, M> S_single = S - (1 - 1 / m.raised) * R;
+    result.nis_single = nu.dot(S_single.inverse() * nu);
+  }
   if (params_.gate && result.nis > gate_[M]) {
     if (!patience_.lostBy(m, params_.gate_patience_s)) {
       result.reason = Correction::Reason::kGated;

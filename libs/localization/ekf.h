@@ -82,5 +82,7 @@ std::unique_ptr<PoseFilter> makeEkf(const EkfParams& params);
 
 /// Upper quantile of the chi-square distribution for 1, 2 or 3 degrees of freedom (exact; MRPT's is an approximation).
 double chiSquareQuantile(double probability, int dof);
+/// P(chi^2 <= q) of `dof` = 1, 2, 3 degrees of freedom.
+double chiSquareCdf(double q, int dof);
 
 }  // namespace sidestep

@@ -149,9 +149,14 @@ void Localizer::count(Event& event, const Correction& c) {
   auto& u = use(event.measurement.stream);
   if (c.dof > 0 && c.reason != Correction::Reason::kNotFinite) {
     u.nis_dof = c.dof;
+    if (records_innovations_)
+      innovations_.push_back({event.measurement.stream, event.time_s, c.nis_single, c.dof, c.accepted()});
     if (c.accepted()) {
-      u.nis_sum += c.nis;
+      u.nis_sum += c.nis_single;
       ++u.nis_count;
+      // Squares of errors that are alike over tau are alike over tau / 2: of n in a time T, T / tau count; raised is 2
+      // tau n / T.
+      u.nis_independent += std::min(1.0, 2 / event.measurement.raised);
     }
   }
   if (c.accepted())
@@ -181,7 +186,11 @@ void Localizer::owe(std::optional<uint64_t> odometry_index) {
 void Localizer::giveOut() {
   if (!owed_) return;
   owed_ = false;
-  ready_.push_back({now_s_, filter_->estimate(), odometry_pose_, owed_index_, filter_->lostProbability()});
+  ready_.push_back({now_s_, filter_->estimate(), odometry_pose_, owed_index_, filter_->lostProbability(), {}});
+  if (modes_period_s_ > 0 && now_s_ >= next_modes_s_) {
+    ready_.back().modes = filter_->modes();
+    next_modes_s_ = now_s_ + modes_period_s_;
+  }
 }
 
 void Localizer::trimHistory() {
@@ -257,6 +266,12 @@ void Localizer::finish() {
 std::vector<Estimate> Localizer::takeEstimates() {
   std::vector<Estimate> out;
   if (!smoother_) out.swap(ready_);
+  return out;
+}
+
+std::vector<InnovationRecord> Localizer::takeInnovations() {
+  std::vector<InnovationRecord> out;
+  out.swap(innovations_);
   return out;
 }
 

@@ -44,6 +44,16 @@ struct Estimate {
   mrpt::math::TPose2D odometry;            ///< odometry alone, from the same start [m, rad]
   std::optional<uint64_t> odometry_index;  ///< which odometry reading (0, 1, ...) this belongs to; none while coasting
   std::optional<double> lost_probability;  ///< of an error over 1 m, from filters that can tell
+  std::vector<PoseMode> modes;             ///< now and then, if asked for and the filter can tell (PoseFilter::modes)
+};
+
+/// How far one measurement was from what the filter expected.
+struct InnovationRecord {
+  int stream = 0;
+  double time_s = 0;
+  double nis = 0;
+  int dof = 0;
+  bool accepted = false;
 };
 
 /// What became of one label's measurements.
@@ -51,8 +61,9 @@ struct SensorUse {
   std::string label;
   uint64_t read = 0, used = 0;
   std::map<std::string, uint64_t> refused;  ///< by reason
-  double nis_sum = 0;
+  double nis_sum = 0;                       ///< of Correction::nis_single
   uint64_t nis_count = 0;
+  double nis_independent = 0;  ///< how many of those are worth one of their own; fewer if neighbouring errors are alike
   int nis_dof = 0;
 };
 
@@ -82,6 +93,8 @@ class Localizer {
   void position(int stream, double time_s, double x, double y);
   /// What an IMU says, as plain numbers: yaw [rad], yaw rate [rad/s].
   void heading(int stream, double time_s, double heading_rad);
+  /// A fix and a heading of one instant as one measurement (3.14); once the robot's start is known.
+  void positionHeading(int stream, double time_s, double x, double y, double heading_rad);
   void yawRate(int stream, double time_s, double rate);
   void beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o);
   void laser(int stream, double time_s, const mrpt::obs::CObservation2DRangeScan& o);
@@ -91,12 +104,21 @@ class Localizer {
   /// it); `finish` throws Error if the filter has no smoother. To be called before the first observation.
   void smoothAtEnd() { smoother_.emplace(); }
 
+  /// From now on innovations are kept for `takeInnovations`, and the modes of the filter go with an estimate each
+  /// `modes_period_s` (0: never).
+  void recordMore(double modes_period_s) {
+    records_innovations_ = true;
+    modes_period_s_ = modes_period_s;
+  }
+
   /// Estimates that became ready since the last call, in time order.
   std::vector<Estimate> takeEstimates();
   const std::vector<SensorUse>& sensors() const { return sensors_; }
   bool started() const { return started_; }
   /// Fixes in the map frame since the last call, for the picture.
   std::vector<mrpt::math::TPoint2D> takeFixes();
+  /// Innovations since the last call, each measurement once, in the order of corrections; nothing without `recordMore`.
+  std::vector<InnovationRecord> takeInnovations();
 
  private:
   struct Event {
@@ -141,6 +163,9 @@ class Localizer {
   std::vector<Measurement> pending_;  // sorted by time
   std::vector<Estimate> ready_;
   std::vector<mrpt::math::TPoint2D> fixes_;
+  std::vector<InnovationRecord> innovations_;
+  bool records_innovations_ = false;
+  double modes_period_s_ = 0, next_modes_s_ = 0;
   struct Waiting {
     MotionSource::Step step;
     uint64_t odometry_index;

@@ -86,6 +86,22 @@ void Localizer::heading(int stream, double time_s, double heading_rad) {
   addHeading(stream, time_s, heading_rad - params_.imu.heading_offset);
 }
 
+void Localizer::positionHeading(int stream, double time_s, double x, double y, double heading_rad) {
+  ++use(stream).read;
+  auto m = gps_.measurement(time_s, x, y);
+  const auto h =
+      headingMeasurement(params_.imu, m.time_s + params_.imu.delay_s, heading_rad - params_.imu.heading_offset,
+                         last_heading_s_ > 0 ? time_s - last_heading_s_ : 0);
+  last_heading_s_ = time_s;
+  m.kind = Measurement::Kind::kPositionHeading;
+  m.stream = stream;
+  m.z(2) = h.z(0);
+  m.R(2, 2) = h.R(0, 0);
+  m.heading_has_offset = h.heading_has_offset;
+  fixes_.push_back({x, y});
+  add(m);
+}
+
 void Localizer::yawRate(int stream, double time_s, double rate) {
   ++use(stream).read;
   ++use(stream).used;

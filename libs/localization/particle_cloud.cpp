@@ -73,8 +73,9 @@ std::vector<uint32_t> connected(const std::vector<uint64_t>& cells, const CellKe
 
 void ParticleCloud::reserve(size_t most) {
   const auto n = static_cast<Eigen::Index>(most);
-  for (auto* a : {&x, &y, &yaw, &offset, &weight, &spare_x_, &spare_y_, &spare_yaw_, &spare_offset_})
+  for (auto* a : {&x, &y, &yaw, &offset, &weight, &bias, &scale, &spare_x_, &spare_y_, &spare_yaw_, &spare_offset_})
     a->conservativeResize(n);
+  for (auto* a : {&bias, &scale}) a->setZero();
   gaussians_.resize(3 * n);
   size_ = std::min(size_, most);
 }
@@ -92,17 +93,36 @@ void ParticleCloud::draw(const PoseBelief& belief, size_t count, Random& random)
     y[i] = belief.mean.y + d.y();
     yaw[i] = wrapAngle(belief.mean.phi + d.z());
   }
-  offset.head(length()).setZero();
+  for (auto* a : {&offset, &bias, &scale}) a->head(length()).setZero();
   equalWeights();
+}
+
+/// Turns the noise into how much farther each particle goes, turns, than the step says, and lets it learn from that
+/// what its scale and bias are: given its path they are Gaussian, with a variance that is common to all
+/// (Rao-Blackwell).
+void ParticleCloud::learnFromNoise(const MotionStep& motion, const MotionNoise& noise) {
+  const Eigen::Index n = length();
+  double* __restrict g = gaussians_.data();
+  double* __restrict b = bias.data(), * __restrict s = scale.data();
+  const double distance = motion.distance_m, dt = motion.turn_from_gyro ? motion.dt_s : 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double far = g[i], turned = g[n + i];
+    g[i] = distance * s[i] + noise.distance_sd * far;
+    g[n + i] = noise.turn_sd * turned - dt * b[i];
+    s[i] += noise.scale_gain * far;
+    b[i] -= noise.bias_gain * turned;
+  }
 }
 
 void ParticleCloud::move(const MotionStep& motion, const MotionNoise& noise, Random& random) {
   const Eigen::Index n = length();
   double* __restrict g = gaussians_.data();
   random.gaussians(g, static_cast<size_t>(noise.final_turn_sd > 0 ? 3 * n : 2 * n));
+  if (learns_motion_) learnFromNoise(motion, noise);
   double* __restrict px = x.data(), * __restrict py = y.data(), * __restrict pyaw = yaw.data();
   const double distance = motion.distance_m, turn = motion.turn_rad;
-  const double distance_sd = noise.distance_sd, turn_sd = noise.turn_sd, final_sd = noise.final_turn_sd;
+  const double distance_sd = learns_motion_ ? 1 : noise.distance_sd, turn_sd = learns_motion_ ? 1 : noise.turn_sd;
+  const double final_sd = noise.final_turn_sd;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double d = distance + distance_sd * g[i], t = turn + turn_sd * g[n + i];
     double s, c;
@@ -127,6 +147,13 @@ void ParticleCloud::select(const uint32_t* indices, size_t count) {
   y.swap(spare_y_);
   yaw.swap(spare_yaw_);
   offset.swap(spare_offset_);
+  if (learns_motion_) {
+    for (auto* a : {&bias, &scale}) {
+      for (size_t k = 0; k < count; ++k)
+        spare_offset_[static_cast<Eigen::Index>(k)] = (*a)[static_cast<Eigen::Index>(indices[k])];
+      a->swap(spare_offset_);
+    }
+  }
   size_ = count;
   equalWeights();
 }

@@ -16,10 +16,10 @@ namespace {
 
 using Kind = Measurement::Kind;
 
-constexpr double kLeastVariance = 1e-12;  // of a measurement said to be exact
-constexpr double kFarthest_m = 1e8;       // what is farther out is no measurement on this planet
-constexpr double kMostTurn = 1e6;         // rad
-constexpr double kFewest = 10;            // effective particles that must explain a measurement
+constexpr double kFarthest_m = 1e8;  // what is farther out is no measurement on this planet
+constexpr double kMostTurn = 1e6;    // rad
+constexpr double kFewest = 10;       // effective particles that must explain a measurement
+constexpr double kExpected = 0.95;   // share of good measurements that choose among the particles
 
 bool sane(const MotionStep& s) {
   return s.dt_s >= 0 && s.dt_s < 1e9 && std::abs(s.distance_m) < kFarthest_m && std::abs(s.turn_rad) < kMostTurn &&
@@ -59,15 +59,25 @@ void PfParams::visit(ParamVisitor& v) {
   v.angle("heading_offset_sd_deg", heading_offset_sd, {0, 360}, "sd of the IMU's unknown heading offset; 0 = none");
   v.angle("heading_offset_walk_deg", heading_offset_walk, {0, 90}, "how much that offset drifts in a second");
   v.angle("yaw_rate_bias_sd_deg", yaw_rate_bias_sd, {0, 90}, "sd of the gyro's unknown bias (deg/s); 0 = none");
+  v.angle("yaw_rate_bias_walk_deg", yaw_rate_bias_walk, {0, 90},
+          "how much that bias drifts in a second (deg/s); with 0 "
+          "particles end up believing in one value, right or wrong");
+  v.number("wheel_scale_sd", wheel_scale_sd, {0, 1}, "", "sd of the wheels' unknown scale error; 0 = none");
+  v.number("wheel_scale_walk", wheel_scale_walk, {0, 1}, "1/sqrt(s)",
+           "how much that scale drifts in a second; 0: as above");
   v.section("resampling", "how the next particles are drawn", [this](ParamVisitor& w) { resampling.visit(w); });
 }
 
 ParticleFilter::ParticleFilter(const PfParams& params, uint64_t seed)
     : params_(params), random_(seed), scheme_(resamplingScheme(params.resampling.scheme)) {
-  for (int dof = 1; dof <= 3; ++dof) gate_[static_cast<size_t>(dof)] = chiSquareQuantile(params.gate_probability, dof);
+  for (int dof = 1; dof <= 3; ++dof) {
+    gate_[static_cast<size_t>(dof)] = chiSquareQuantile(params.gate_probability, dof);
+    unexpected_[static_cast<size_t>(dof)] = chiSquareQuantile(kExpected, dof);
+  }
   const auto& r = params.resampling;
   const auto most = static_cast<size_t>(std::max(params.particles, r.kld ? std::max(r.kld_min, r.kld_max) : 0));
   cloud_.reserve(most);
+  if (params.yaw_rate_bias_sd > 0 || params.wheel_scale_sd > 0) cloud_.learnMotion();
   resampler_.reserve(most);
   if (r.kld) cells_.reserve(most);
   indices_.resize(most);
@@ -79,142 +89,52 @@ ParticleFilter::ParticleFilter(const PfParams& params, uint64_t seed)
 void ParticleFilter::start(const PoseBelief& belief) {
   cloud_.draw(sane(belief) ? belief : PoseBelief(), static_cast<size_t>(params_.particles), random_);
   offset_var_ = params_.heading_offset_sd * params_.heading_offset_sd;
-  bias_ = 0;
   bias_var_ = params_.yaw_rate_bias_sd * params_.yaw_rate_bias_sd;
+  scale_var_ = params_.wheel_scale_sd * params_.wheel_scale_sd;
   patience_.clear();
 }
 
 // ---- prediction ----
 
+/// Adds what the wheels' unknown scale makes of the distance to its variance. @return ParticleCloud::MotionNoise's gain
+double ParticleFilter::learnScale(const MotionStep& step, double& distance_var) {
+  if (!(params_.wheel_scale_sd > 0)) return 0;
+  scale_var_ += params_.wheel_scale_walk * params_.wheel_scale_walk * step.dt_s;
+  const double q = distance_var, h = step.distance_m;
+  distance_var = q + scale_var_ * h * h;
+  if (!(distance_var > 0)) return 0;
+  const double gain = scale_var_ * h / std::sqrt(distance_var);
+  scale_var_ *= q / distance_var;
+  return gain;
+}
+
+/// The same for the bias of the gyro, if the turn is its.
+double ParticleFilter::learnBias(const MotionStep& step, double& turn_var) {
+  if (!(params_.yaw_rate_bias_sd > 0)) return 0;
+  bias_var_ += params_.yaw_rate_bias_walk * params_.yaw_rate_bias_walk * step.dt_s;
+  if (!step.turn_from_gyro) return 0;
+  const double q = turn_var, h = step.dt_s;
+  turn_var = q + bias_var_ * h * h;
+  if (!(turn_var > 0)) return 0;
+  const double gain = bias_var_ * h / std::sqrt(turn_var);
+  bias_var_ *= q / turn_var;
+  return gain;
+}
+
 void ParticleFilter::predict(const MotionStep& motion) {
   if (motion.still || !sane(motion)) return;
-  MotionStep step = motion;
+  const double dt = motion.dt_s;
+  const bool printed = params_.motion_noise == "printed";
+  double distance_var = printed ? std::pow(params_.sd1 * dt, 2) : motion.distance_var;
+  double turn_var = printed ? std::pow(params_.sd2 * dt, 2) : motion.turn_var;
   ParticleCloud::MotionNoise noise;
-  if (params_.motion_noise == "printed") {
-    noise = {params_.sd1 * step.dt_s, params_.sd2 * step.dt_s, params_.sd3 * step.dt_s};
-  } else {
-    const double by_bias = step.turn_from_gyro ? bias_var_ * step.dt_s * step.dt_s : 0;
-    noise = {std::sqrt(step.distance_var), std::sqrt(step.turn_var + by_bias), 0};
-  }
-  if (step.turn_from_gyro) step.turn_rad -= bias_ * step.dt_s;
-  cloud_.move(step, noise, random_);
-  offset_var_ += params_.heading_offset_walk * params_.heading_offset_walk * step.dt_s;
-}
-
-// ---- innovations ----
-
-void ParticleFilter::positionInnovations(const Measurement& m) {
-  const auto n = static_cast<Eigen::Index>(cloud_.size());
-  const double ahead = m.p_base_sensor.x(), left = m.p_base_sensor.y();
-  if (ahead == 0 && left == 0) {
-    row(0) = m.z(0) - cloud_.x.head(n);
-    row(1) = m.z(1) - cloud_.y.head(n);
-    return;
-  }
-  const double* __restrict x = cloud_.x.data(), * __restrict y = cloud_.y.data(), * __restrict yaw = cloud_.yaw.data();
-  double* __restrict nu_x = nu_[0].data(), * __restrict nu_y = nu_[1].data();
-  const double zx = m.z(0), zy = m.z(1);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double s, c;
-    sineCosine(yaw[i], s, c);
-    nu_x[i] = zx - (x[i] + c * ahead - s * left);
-    nu_y[i] = zy - (y[i] + s * ahead + c * left);
-  }
-}
-
-void ParticleFilter::headingInnovations(const Measurement& m, int k) {
-  const auto n = static_cast<Eigen::Index>(cloud_.size());
-  const double* __restrict yaw = cloud_.yaw.data(), * __restrict offset = cloud_.offset.data();
-  double* __restrict nu = nu_[static_cast<size_t>(k)].data();
-  const double z = wrapAngle(m.z(k)), take = m.heading_has_offset ? 1 : 0;
-  for (Eigen::Index i = 0; i < n; ++i) nu[i] = wrapAngle(z - yaw[i] - take * offset[i]);
-}
-
-void ParticleFilter::rangeInnovations(const Measurement& m) {
-  positionInnovations(m);  // of z = (range, 0): only the sensor's place in them is wanted
-  const double bx = m.z(0) - m.p_map_beacon.x(), by = m.z(1) - m.p_map_beacon.y();
-  const double dz = m.p_base_sensor.z() - m.p_map_beacon.z();
-  row(0) = m.z(0) - ((bx - row(0)).square() + (by - row(1)).square() + dz * dz).sqrt();
-}
-
-void ParticleFilter::innovations(const Measurement& m) {
-  switch (m.kind) {
-    case Kind::kPositionHeading:
-      headingInnovations(m, 2);
-      [[fallthrough]];
-    case Kind::kPosition:
-      return positionInnovations(m);
-    case Kind::kHeading:
-      return headingInnovations(m, 0);
-    case Kind::kRange:
-      return rangeInnovations(m);
-    case Kind::kStill:
-    case Kind::kScan:
-      return;
-  }
-}
-
-/// R, and for a heading what is not known of its offset.
-Eigen::Matrix3d ParticleFilter::noise(const Measurement& m) const {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  const int n = m.size();
-  R.topLeftCorner(n, n) = m.R.topLeftCorner(n, n);
-  R.diagonal() = R.diagonal().cwiseMax(kLeastVariance);
-  if (m.tellsHeading() && m.heading_has_offset) R(n - 1, n - 1) += offset_var_;
-  return R;
-}
-
-/// Covariance of the innovations over the cloud, and their mean.
-Eigen::Matrix3d ParticleFilter::meanSquares(int size, Eigen::Vector3d& mean) const {
-  const auto w = cloud_.weights();
-  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
-  mean.setZero();
-  const auto n = static_cast<Eigen::Index>(cloud_.size());
-  for (int a = 0; a < size; ++a) mean(a) = (w * row(a)).sum();
-  for (int a = 0; a < size; ++a)
-    for (int b = 0; b <= a; ++b) {
-      const double *u = nu_[static_cast<size_t>(a)].data(), *v = nu_[static_cast<size_t>(b)].data();
-      PairSum sum;
-      forPairs(n, [&](Eigen::Index i, auto lane) {
-        sum.add(at(cloud_.weight.data(), i, lane) * (at(u, i, lane) - mean(a)) * (at(v, i, lane) - mean(b)));
-      });
-      out(a, b) = out(b, a) = sum.total();
-    }
-  return out;
-}
-
-// ---- weights ----
-
-void ParticleFilter::weighByGaussian(int size, const Eigen::Matrix3d& R) {
-  const Eigen::Matrix3d W = R.inverse();
-  auto q = likelihoods();
-  if (size == 1)
-    q = -0.5 * W(0, 0) * row(0).square();
-  else if (size == 2)
-    q = -0.5 * W(0, 0) * row(0).square() - W(0, 1) * row(0) * row(1) - 0.5 * W(1, 1) * row(1).square();
-  else
-    q = -0.5 * (row(0) * (W(0, 0) * row(0) + 2 * W(0, 1) * row(1) + 2 * W(0, 2) * row(2)) +
-                row(1) * (W(1, 1) * row(1) + 2 * W(1, 2) * row(2)) + W(2, 2) * row(2).square());
-  double* __restrict l = likelihood_.data();
-  for (Eigen::Index i = 0; i < q.size(); ++i) l[i] = weightExp(l[i]);
-}
-
-/// Algorithm 3, lines 12-18; the factor |2 pi R|^-1/2 is the same for all particles.
-void ParticleFilter::weighAsPrinted(int size) {
-  auto q = likelihoods();
-  q = row(0).square();
-  for (int k = 1; k < size; ++k) q += row(k).square();
-  q = (-0.5 * (0.2 * q.max(1e-300).log()).exp()).exp();
-}
-
-void ParticleFilter::multiplyWeights(double floor) {
-  auto w = cloud_.weights();
-  w *= likelihoods() + floor;
-  const double sum = w.sum();
-  if (sum > 0 && std::isfinite(sum))
-    w *= 1 / sum;
-  else
-    cloud_.equalWeights();
+  noise.scale_gain = learnScale(motion, distance_var);
+  noise.bias_gain = learnBias(motion, turn_var);
+  noise.distance_sd = std::sqrt(distance_var);
+  noise.turn_sd = std::sqrt(turn_var);
+  noise.final_turn_sd = printed ? params_.sd3 * dt : 0;
+  cloud_.move(motion, noise, random_);
+  offset_var_ += params_.heading_offset_walk * params_.heading_offset_walk * dt;
 }
 
 // ---- correction ----
@@ -222,16 +142,8 @@ void ParticleFilter::multiplyWeights(double floor) {
 Correction ParticleFilter::correct(const Measurement& m) {
   if (m.kind == Kind::kScan) return {Correction::Reason::kNotObservable, 0, 0};  // there is no map
   if (!sane(m)) return {Correction::Reason::kNotFinite, 0, m.size()};
-  return m.kind == Kind::kStill ? correctBias(m) : correctPose(m);
-}
-
-Correction ParticleFilter::correctBias(const Measurement& m) {
-  if (!(bias_var_ > 0)) return {Correction::Reason::kNotObservable, 0, 1};
-  const double nu = m.z(0) - bias_, S = bias_var_ + std::max(m.R(0, 0), kLeastVariance), K = bias_var_ / S;
-  if (nu * nu / S > gate_[1]) return {Correction::Reason::kGated, nu * nu / S, 1};
-  bias_ += K * nu;
-  bias_var_ *= 1 - K;
-  return {Correction::Reason::kAccepted, nu * nu / S, 1};
+  if (m.kind == Kind::kStill && !(params_.yaw_rate_bias_sd > 0)) return {Correction::Reason::kNotObservable, 0, 1};
+  return correctPose(m);
 }
 
 Correction ParticleFilter::correctPose(const Measurement& m) {
@@ -242,7 +154,13 @@ Correction ParticleFilter::correctPose(const Measurement& m) {
   const Eigen::Matrix3d S = meanSquares(size, nu) + R;  // the identity in rows that do not count
   Correction result{Correction::Reason::kAccepted,
                     nu.head(size).dot(S.inverse().topLeftCorner(size, size) * nu.head(size)), size};
-  if (params_.likelihood == "printed") {
+  result.nis_single = result.nis;
+  if (m.raised > 1) {
+    Eigen::Matrix3d S_single = S;
+    S_single.topLeftCorner(size, size) -= (1 - 1 / m.raised) * m.R.topLeftCorner(size, size);
+    result.nis_single = nu.head(size).dot(S_single.inverse().topLeftCorner(size, size) * nu.head(size));
+  }
+  if (params_.likelihood == "printed" && m.kind != Kind::kStill) {
     weighAsPrinted(size);
     multiplyWeights(0);
   } else {
@@ -262,13 +180,14 @@ Correction ParticleFilter::correctPose(const Measurement& m) {
       return result;
     }
     patience_.accepted(m);
-    if (!(mean * mean > kFewest * squares)) {
+    const bool unexpected = result.nis_single > unexpected_[static_cast<size_t>(size)] && m.kind != Kind::kRange;
+    if (unexpected || !(mean * mean > kFewest * squares)) {
       moveTowards(m, S, R);
       return result;
     }
     multiplyWeights(floor);
   }
-  updateOffsets(m);
+  updateConstants(m);
   if (params_.resampling.each_step || degenerate()) resample();
   return result;
 }
@@ -278,11 +197,17 @@ bool ParticleFilter::degenerate() const {
   return effectiveSampleSize(cloud_.weight.data(), cloud_.size()) < params_.resampling.ess_share * n;
 }
 
-void ParticleFilter::updateOffsets(const Measurement& m) {
+void ParticleFilter::updateConstants(const Measurement& m) {
+  const auto n = static_cast<Eigen::Index>(cloud_.size());
+  if (m.kind == Kind::kStill) {
+    const double K = bias_var_ / (bias_var_ + std::max(m.R(0, 0), kLeastVariance));
+    cloud_.bias.head(n) += K * row(0);
+    bias_var_ *= 1 - K;
+  }
   if (!m.tellsHeading() || !m.heading_has_offset || !(offset_var_ > 0)) return;
   const int k = m.size() - 1;
   const double S = offset_var_ + std::max(m.R(k, k), kLeastVariance), K = offset_var_ / S;
-  cloud_.offset.head(static_cast<Eigen::Index>(cloud_.size())) += K * row(k);
+  cloud_.offset.head(n) += K * row(k);
   offset_var_ *= 1 - K;
 }
 
@@ -290,40 +215,47 @@ void ParticleFilter::moveTowards(const Measurement& m, const Eigen::Matrix3d& S,
   const int size = m.size();
   const auto n = static_cast<Eigen::Index>(cloud_.size());
   const PoseBelief b = cloud_.belief();
-  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();  // of pose and expected measurement
-  Eigen::Vector3d mean;
+  const auto w = cloud_.weights();
+  const std::array<Eigen::ArrayXd*, 3> constants = {&cloud_.offset, &cloud_.bias, &cloud_.scale};
+  Eigen::Vector3d mean, mean_constants;
+  for (int k = 0; k < 3; ++k) mean_constants(k) = (w * constants[static_cast<size_t>(k)]->head(n)).sum();
   meanSquares(size, mean);
+  Eigen::Matrix<double, 6, 3> cross = Eigen::Matrix<double, 6, 3>::Zero();  // of pose, constants and the measurement
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Vector3d d(cloud_.x[i] - b.mean.x, cloud_.y[i] - b.mean.y, wrapAngle(cloud_.yaw[i] - b.mean.phi));
-    for (int k = 0; k < size; ++k) cross.col(k) -= cloud_.weight[i] * (row(k)[i] - mean(k)) * d;
+    Eigen::Vector<double, 6> d;
+    d << cloud_.x[i] - b.mean.x, cloud_.y[i] - b.mean.y, wrapAngle(cloud_.yaw[i] - b.mean.phi),
+        cloud_.offset[i] - mean_constants(0), cloud_.bias[i] - mean_constants(1), cloud_.scale[i] - mean_constants(2);
+    for (int k = 0; k < size; ++k) cross.col(k) -= w[i] * (row(k)[i] - mean(k)) * d;
   }
-  const Eigen::Matrix3d K = cross * S.inverse();
+  const Eigen::Matrix<double, 6, 3> K = cross * S.inverse();
   const Eigen::Matrix3d root = R.llt().matrixL();
   for (Eigen::Index i = 0; i < n; ++i) {
     Eigen::Vector3d e, nu = Eigen::Vector3d::Zero();
     random_.gaussians(e.data(), 3);
     e = root * e;
     for (int k = 0; k < size; ++k) nu(k) = row(k)[i] + e(k);
-    const Eigen::Vector3d d = K * nu;
+    const Eigen::Vector<double, 6> d = K * nu;
     if (!d.allFinite()) continue;
-    cloud_.x[i] += d.x();
-    cloud_.y[i] += d.y();
-    cloud_.yaw[i] = wrapAngle(cloud_.yaw[i] + d.z());
+    cloud_.x[i] += d(0);
+    cloud_.y[i] += d(1);
+    cloud_.yaw[i] = wrapAngle(cloud_.yaw[i] + d(2));
+    for (int k = 0; k < 3; ++k) (*constants[static_cast<size_t>(k)])[i] += d(3 + k);
   }
   innovations(m);
-  updateOffsets(m);
+  updateConstants(m);
 }
 
 // ---- replay ----
 
 void ParticleFilter::save(std::vector<double>& out) const {
   const size_t n = cloud_.size();
-  out.resize(4 + Patience::kKinds + 8 + 5 * n);
+  const size_t arrays = cloud_.learnsMotion() ? 7 : 5;
+  out.resize(4 + Patience::kKinds + 8 + arrays * n);
   double* p = out.data();
   *p++ = static_cast<double>(n);
   *p++ = offset_var_;
-  *p++ = bias_;
   *p++ = bias_var_;
+  *p++ = scale_var_;
   p = patience_.save(p);
   for (const uint64_t word : random_.state()) {  // in halves, each of which a double holds exactly
     *p++ = static_cast<double>(word >> 32);
@@ -331,14 +263,16 @@ void ParticleFilter::save(std::vector<double>& out) const {
   }
   for (const auto* a : {&cloud_.x, &cloud_.y, &cloud_.yaw, &cloud_.offset, &cloud_.weight})
     p = std::copy(a->data(), a->data() + n, p);
+  if (!cloud_.learnsMotion()) return;
+  for (const auto* a : {&cloud_.bias, &cloud_.scale}) p = std::copy(a->data(), a->data() + n, p);
 }
 
 void ParticleFilter::restore(const std::vector<double>& state) {
   const double* p = state.data();
   const auto n = static_cast<size_t>(*p++);
   offset_var_ = *p++;
-  bias_ = *p++;
   bias_var_ = *p++;
+  scale_var_ = *p++;
   p = patience_.restore(p);
   std::array<uint64_t, 4> words{};
   for (auto& word : words) {
@@ -348,6 +282,11 @@ void ParticleFilter::restore(const std::vector<double>& state) {
   random_.setState(words);
   cloud_.resize(n);
   for (auto* a : {&cloud_.x, &cloud_.y, &cloud_.yaw, &cloud_.offset, &cloud_.weight}) {
+    std::copy(p, p + n, a->data());
+    p += n;
+  }
+  if (!cloud_.learnsMotion()) return;
+  for (auto* a : {&cloud_.bias, &cloud_.scale}) {
     std::copy(p, p + n, a->data());
     p += n;
   }

@@ -28,6 +28,9 @@ struct PfParams {
   double heading_offset_sd = 0.785398163397448279;  // rad
   double heading_offset_walk = 0;                   // rad / sqrt(s)
   double yaw_rate_bias_sd = 0;                      // rad/s
+  double yaw_rate_bias_walk = 5e-5;                 // rad/s / sqrt(s)
+  double wheel_scale_sd = 0;
+  double wheel_scale_walk = 0.0005;  // 1 / sqrt(s)
   ResamplingParams resampling;
 
   void visit(ParamVisitor& v);
@@ -44,12 +47,17 @@ struct PfParams {
 /// exp(-EN^0.4 / 2) with EN the length of the innovation (algorithm 3, line 18), blind to R.
 ///
 /// A measurement much sharper than the cloud, which fewer than ten effective particles explain, moves all towards it
-/// (stochastic ensemble Kalman update, Evensen 1994) instead of choosing among them. Measurements of a kind
-/// refused for `recovery_patience_s` draw a share of the particles anew from the measurement; what comes next decides
-/// between old and new.
+/// (stochastic ensemble Kalman update, Evensen 1994) instead of choosing among them; so does a fix or heading beyond
+/// the 95 % quantile of what the cloud expects of one by itself: where the model is a little wrong, choosing again and
+/// again at the cloud's edge would leave a few particles, all sure of the wrong pose. Measurements of a kind refused
+/// for `recovery_patience_s` draw a share of the particles anew from the measurement; what comes next decides between
+/// old and new.
 ///
-/// The constant offset of the IMU's heading is estimated beside each particle (Rao-Blackwell): its variance is common
-/// to all. The gyro's bias is a mean of what the gyro says at standstill.
+/// The constant offset of the IMU's heading, the bias of the gyro and the scale error of the wheels are estimated
+/// beside each particle (Rao-Blackwell; Schoen, Gustafsson, Nordlund 2005): given its path each is Gaussian with a
+/// variance that is common to all. A particle that moves by a draw e of the noise sqrt(q + P h^2) of distance or turn,
+/// h the step's derivative by the constant, learns K e, K = P h / (q + P h^2), and P becomes P q / (q + P h^2); the
+/// weights then choose between particles that learnt different things. At standstill the gyro shows its bias.
 ///
 /// A step of n particles costs O(n) and does not allocate. The numbers drawn depend on the seed and the calls alone.
 class ParticleFilter : public PoseFilter {
@@ -63,8 +71,10 @@ class ParticleFilter : public PoseFilter {
   void restore(const std::vector<double>& state) override;
 
   const ParticleCloud& cloud() const { return cloud_; }
-  /// Where else the robot may be: groups of neighbouring particles, with at least 1 % of the weight each.
-  std::vector<PoseMode> modes() const;
+  /// Groups of neighbouring particles with at least 1 % of the weight each. Neighbours lie within two cells of
+  /// `resampling.kld_cell_*`, or what is wider, the spread of the cloud by n^(1/7) (Silverman's rule for three
+  /// dimensions).
+  std::vector<PoseMode> modes() const override;
 
  protected:
   /// Multiplies the weights by likelihood_ + floor and lets their sum be 1.
@@ -79,8 +89,8 @@ class ParticleFilter : public PoseFilter {
   PfParams params_;
   Random random_;
   ParticleCloud cloud_;
-  Eigen::ArrayXd likelihood_;  // scratch: what weights are multiplied with
-  double offset_var_ = 0;
+  Eigen::ArrayXd likelihood_;                             // scratch: what weights are multiplied with
+  double offset_var_ = 0, bias_var_ = 0, scale_var_ = 0;  // given a particle's path
 
  private:
   void innovations(const Measurement& m);
@@ -89,12 +99,13 @@ class ParticleFilter : public PoseFilter {
   void rangeInnovations(const Measurement& m);
   Eigen::Matrix3d noise(const Measurement& m) const;
   Eigen::Matrix3d meanSquares(int size, Eigen::Vector3d& mean) const;
+  double learnScale(const MotionStep& step, double& distance_var);
+  double learnBias(const MotionStep& step, double& turn_var);
   Correction correctPose(const Measurement& m);
-  Correction correctBias(const Measurement& m);
   void weighByGaussian(int size, const Eigen::Matrix3d& R);
   void weighAsPrinted(int size);
   void moveTowards(const Measurement& m, const Eigen::Matrix3d& S, const Eigen::Matrix3d& R);
-  void updateOffsets(const Measurement& m);
+  void updateConstants(const Measurement& m);
   void inject(const Measurement& m);
   mrpt::math::TPose2D drawFrom(const Measurement& m, Eigen::Index like);
   void roughen(size_t count);
@@ -102,13 +113,14 @@ class ParticleFilter : public PoseFilter {
   auto row(int k) const { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
   auto row(int k) { return nu_[static_cast<size_t>(k)].head(static_cast<Eigen::Index>(cloud_.size())); }
 
+  static constexpr double kLeastVariance = 1e-12;  // of a measurement said to be exact
+
   ResamplingScheme scheme_;
-  std::array<double, 4> gate_{};  // NIS bound by degrees of freedom
+  std::array<double, 4> gate_{}, unexpected_{};  // NIS bounds by degrees of freedom
   Resampler resampler_;
   CellCounter cells_;
   std::vector<uint32_t> indices_;
   std::array<Eigen::ArrayXd, 3> nu_;  // innovations, a component an array
-  double bias_ = 0, bias_var_ = 0;
   Patience patience_;
 };
 

@@ -53,8 +53,10 @@ void ParticleFilter::makeRoom(size_t count, double share) {
   resampler_.draw(scheme_, cloud_.weight.data(), n, kept, random_, indices_.data());
   cloud_.select(indices_.data(), kept);
   cloud_.resize(n);
-  for (size_t k = kept; k < n; ++k)
-    cloud_.offset[static_cast<Eigen::Index>(k)] = cloud_.offset[static_cast<Eigen::Index>(random_.below(kept))];
+  for (size_t k = kept; k < n; ++k) {
+    const auto i = static_cast<Eigen::Index>(k), like = static_cast<Eigen::Index>(random_.below(kept));
+    for (auto* a : {&cloud_.offset, &cloud_.bias, &cloud_.scale}) (*a)[i] = (*a)[like];
+  }
   if (kept == n) return cloud_.equalWeights();
   const auto old = static_cast<Eigen::Index>(kept), made = static_cast<Eigen::Index>(n - kept);
   cloud_.weight.head(old).setConstant((1 - share) / static_cast<double>(kept));
@@ -71,7 +73,7 @@ void ParticleFilter::inject(const Measurement& m) {
     cloud_.x[i] = p.x;
     cloud_.y[i] = p.y;
     cloud_.yaw[i] = p.phi;
-    cloud_.offset[i] = cloud_.offset[like];
+    for (auto* a : {&cloud_.offset, &cloud_.bias, &cloud_.scale}) (*a)[i] = (*a)[like];
   }
 }
 
@@ -120,11 +122,18 @@ void ParticleFilter::roughen(size_t count) {
   const double sd_x = r * std::min(kMostSpread_m, spread(cloud_.x, cloud_.x[0]));
   const double sd_y = r * std::min(kMostSpread_m, spread(cloud_.y, cloud_.y[0]));
   const double sd_yaw = r * std::min(kMostSpread, std::sqrt(std::max(0.0, turns.square().sum() * share - mean * mean)));
+  const bool learns = cloud_.learnsMotion();
+  const double sd_bias = learns ? r * spread(cloud_.bias, cloud_.bias[0]) : 0;
+  const double sd_scale = learns ? r * spread(cloud_.scale, cloud_.scale[0]) : 0;
   for (size_t k = 1; k < count; ++k) {
     if (indices_[k] != indices_[k - 1]) continue;
     const auto i = static_cast<Eigen::Index>(k);
-    double g[3];
-    random_.gaussians(g, 3);
+    double g[5];
+    random_.gaussians(g, learns ? 5 : 3);
+    if (learns) {
+      cloud_.bias[i] += sd_bias * g[3];
+      cloud_.scale[i] += sd_scale * g[4];
+    }
     cloud_.x[i] += sd_x * g[0];
     cloud_.y[i] += sd_y * g[1];
     cloud_.yaw[i] = wrapAngle(cloud_.yaw[i] + sd_yaw * g[2]);
@@ -133,7 +142,10 @@ void ParticleFilter::roughen(size_t count) {
 
 std::vector<PoseMode> ParticleFilter::modes() const {
   const auto& r = params_.resampling;
-  return cloud_.modes(2 * r.kld_cell_m, 2 * r.kld_cell, 0.01);
+  const Eigen::Matrix3d P = cloud_.belief().covariance;
+  const double narrowing = std::pow(static_cast<double>(cloud_.size()), -1.0 / 7);
+  const double cell_m = narrowing * std::sqrt(std::max(P(0, 0), P(1, 1))), cell = narrowing * std::sqrt(P(2, 2));
+  return cloud_.modes(std::max(2 * r.kld_cell_m, cell_m), std::max(2 * r.kld_cell, cell), 0.01);
 }
 
 }  // namespace sidestep

@@ -17,8 +17,9 @@ namespace sidestep {
 struct Correction {
   enum class Reason { kAccepted, kReset, kGated, kNotFinite, kTooLate, kNotObservable, kNothingNew };
   Reason reason = Reason::kAccepted;
-  double nis = 0;  ///< normalized innovation squared, against the covariance before the correction
-  int dof = 0;     ///< its degrees of freedom
+  double nis = 0;         ///< normalized innovation squared, against the covariance before the correction
+  int dof = 0;            ///< its degrees of freedom
+  double nis_single = 0;  ///< NIS with the variance of this measurement by itself (Measurement::raised)
   bool accepted() const { return reason == Reason::kAccepted || reason == Reason::kReset; }
 };
 
@@ -29,6 +30,12 @@ const char* word(Correction::Reason reason);
 struct PoseBelief {
   mrpt::math::TPose2D mean;  ///< map frame [m, rad], yaw in (-pi, pi]
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// One of several places where the robot may be.
+struct PoseMode {
+  double weight = 0;  ///< probability that it is here
+  PoseBelief belief;
 };
 
 /// A recursive estimator of the robot's pose in the plane.
@@ -46,6 +53,8 @@ class PoseFilter {
   virtual PoseBelief estimate() const = 0;
   /// Probability that the estimate is off by more than 1 m, of filters that can tell.
   virtual std::optional<double> lostProbability() const { return std::nullopt; }
+  /// The places where the robot may be, heaviest first, of filters that can hold several; else nothing.
+  virtual std::vector<PoseMode> modes() const { return {}; }
   /// State into `out`, which keeps its memory between calls.
   virtual void save(std::vector<double>& out) const = 0;
   virtual void restore(const std::vector<double>& state) = 0;

@@ -90,15 +90,15 @@ Measurement GpsModel::make(double time_s, double x, double y, double hdop) {
   m.z << x, y, 0;
   m.p_base_sensor << params_.lever_x_m, params_.lever_y_m, 0;
   const double sd = params_.use_hdop > 0 && hdop > 0 ? params_.use_hdop * hdop : params_.sd_m;
-  const double variance = correlatedVariance(sd, params_.correlation_s, last_time_s_ > 0 ? time_s - last_time_s_ : 0);
+  m.raised = raisedBy(params_.correlation_s, last_time_s_ > 0 ? time_s - last_time_s_ : 0);
   last_time_s_ = time_s;
-  m.R(0, 0) = m.R(1, 1) = variance;
+  m.R(0, 0) = m.R(1, 1) = m.raised * sd * sd;
   return m;
 }
 
-double correlatedVariance(double sd, double correlation_s, double period_s) {
-  if (!(period_s > 0)) return sd * sd;
-  return sd * sd * std::max(1.0, 2 * correlation_s / std::max(period_s, 1e-3));
+double raisedBy(double correlation_s, double period_s) {
+  if (!(period_s > 0)) return 1;
+  return std::max(1.0, 2 * correlation_s / std::max(period_s, 1e-3));
 }
 
 ImuReading readImu(const ImuParams& params, const mrpt::obs::CObservationIMU& imu) {
@@ -130,7 +130,8 @@ Measurement headingMeasurement(const ImuParams& params, double time_s, double he
   m.kind = Measurement::Kind::kHeading;
   m.time_s = time_s - params.delay_s;
   m.z(0) = heading_rad;
-  m.R(0, 0) = correlatedVariance(params.heading_sd, params.heading_correlation_s, period_s);
+  m.raised = raisedBy(params.heading_correlation_s, period_s);
+  m.R(0, 0) = m.raised * params.heading_sd * params.heading_sd;
   m.heading_has_offset = true;
   return m;
 }

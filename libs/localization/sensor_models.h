@@ -78,9 +78,9 @@ ImuReading readImu(const ImuParams& params, const mrpt::obs::CObservationIMU& im
 /// @param period_s  time since the last heading [s], 0 = unknown
 Measurement headingMeasurement(const ImuParams& params, double time_s, double heading_rad, double period_s);
 
-/// Variance for a stream of measurements whose errors stay alike for `correlation_s`: white noise of the same spectral
-/// density as an exponentially correlated error, 2 tau sd^2 / dt; never less than sd^2.
-double correlatedVariance(double sd, double correlation_s, double period_s);
+/// By how much to raise the variance of measurements whose errors stay alike for tau = `correlation_s`: to white noise
+/// of the same spectral density as an exponentially correlated error, 2 tau / dt; never less than 1.
+double raisedBy(double correlation_s, double period_s);
 
 /// One measurement a range to a beacon that the parameters know.
 std::vector<Measurement> beaconMeasurements(const BeaconParams& params, double time_s,

@@ -23,6 +23,8 @@ struct DriverView {
   std::span<const Segment> walls;
   std::span<const MovingObstacle> moving;  ///< as far as perceived
   double period_s = 0.05;
+  mrpt::math::TTwist2D ordered;  ///< what it ordered last
+  double delay_s = 0;            ///< by which the base is behind its orders
 };
 
 /// Who drives a robot of the world. The simulation knows no planners: whoever makes the world hands drivers in, for

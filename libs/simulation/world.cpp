@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/robot_start.h"
+
 namespace sidestep {
 namespace {
 
@@ -15,7 +17,7 @@ using mrpt::math::TPoint2D;
 
 constexpr double kWallsMatter_m = 5;  // clearance to walls beyond counts as infinite
 
-enum Stream : uint64_t { kEncoders = 1, kImu, kGps, kLaser, kCrowd, kFirstRobot = 100 };
+enum Stream : uint64_t { kEncoders = 1, kImu, kGps, kLaser, kCrowd, kTracks, kFirstRobot = 100 };
 enum RobotStream : uint64_t { kStart, kWheels, kPerception, kStreamsPerRobot };
 
 std::vector<Segment> allWalls(const WorldParams& p, const WorldInputs& inputs) {
@@ -39,21 +41,34 @@ Random robotRandom(uint64_t seed, size_t robot, RobotStream what) {
   return Random(seed, kFirstRobot + kStreamsPerRobot * robot + what);
 }
 
-mrpt::math::TPose2D startOf(const RobotParams& p, Random random) {
-  const double dx = p.start_shift_m * random.uniform(-1, 1), dy = p.start_shift_m * random.uniform(-1, 1);
-  return {p.x_m + dx, p.y_m + dy, p.yaw};
+/// Recorded people, as of a time at random.
+std::vector<RecordedTrack> shifted(std::vector<RecordedTrack> tracks, double most_s, Random random) {
+  if (!(most_s > 0)) return tracks;
+  const double by = random.uniform(0, most_s);
+  for (auto& track : tracks)
+    for (auto& p : track.points) p.time_s -= by;
+  return tracks;
+}
+
+std::vector<mrpt::math::TPose2D> goalsOf(const RobotParams& p, const TPoint2D& goal) {
+  std::vector<mrpt::math::TPose2D> out;
+  for (const auto& row : p.goals) out.emplace_back(row[0], row[1], 0);
+  if (out.empty()) out.emplace_back(goal.x, goal.y, 0);
+  return out;
 }
 
 /// A robot with its wheels, its eyes and whoever drives it.
 struct Robot {
-  Robot(const RobotParams& p, uint64_t seed, size_t index)
+  Robot(const RobotParams& p, const RobotStart& start, uint64_t seed, size_t index)
       : params(p),
-        drive(p.drive, p.limits, startOf(p, robotRandom(seed, index, kStart)), robotRandom(seed, index, kWheels)),
+        goals(goalsOf(p, start.goal)),
+        drive(p.drive, p.limits, start.pose, robotRandom(seed, index, kWheels)),
         perception(p.perception, robotRandom(seed, index, kPerception)),
         meter(static_cast<int>(index)) {
     drive.startAt(p.start_speed);
   }
   RobotParams params;
+  std::vector<mrpt::math::TPose2D> goals;  ///< in order, one at least
   DiffDrive drive;
   Perception perception;
   ContactMeter meter;
@@ -102,7 +117,8 @@ struct World::Impl {
 World::Impl::Impl(const WorldParams& p, uint64_t seed, WorldInputs inputs, const DriverFactory& factory)
     : params((p.check(), p)),
       walls(allWalls(p, inputs)),
-      crowd(groupsOf(p), inputs.tracks, p.social_force, Random(seed, kCrowd)),
+      crowd(groupsOf(p), shifted(std::move(inputs.tracks), p.tracks_shift_s, Random(seed, kTracks)), p.social_force,
+            Random(seed, kCrowd)),
       encoders(params.encoders, Random(seed, kEncoders)),
       imu(params.imu, Random(seed, kImu)),
       gps(params.gps, Random(seed, kGps)),
@@ -112,10 +128,11 @@ World::Impl::Impl(const WorldParams& p, uint64_t seed, WorldInputs inputs, const
       steps_a_period(std::llround(p.control_period_s / p.step_s)) {
   for (size_t i = 0; i < params.robot_names.size(); ++i) {
     const RobotParams& robot = params.robots.at(params.robot_names[i]);
-    robots.emplace_back(robot, seed, i);
+    const RobotStart start = drawStart(robot, robotRandom(seed, i, kStart), crowd.people(), walls);
+    robots.emplace_back(robot, start, seed, i);
     robots.back().driver = factory(robot.planner, robot.limits);
     states.emplace_back();
-    states.back().goal = {robot.goal_x_m, robot.goal_y_m, 0};
+    states.back().goal = robots.back().goals.front();
     states.back().radius_m = robot.limits.radius_m;
   }
   bodies.resize(robots.size());
@@ -132,6 +149,11 @@ void World::Impl::publish() {
     bodies[i] = {{s.pose.x, s.pose.y}, {s.twist.vx * c, s.twist.vx * n}, s.radius_m};
     const double to_goal = std::hypot(s.goal.x - s.pose.x, s.goal.y - s.pose.y);
     if (s.arrived || to_goal > robots[i].params.goal_tolerance_m) continue;
+    const auto& goals = robots[i].goals;
+    if (const auto next = static_cast<size_t>(++s.goals_reached); next < goals.size()) {
+      s.goal = goals[next];
+      continue;
+    }
     s.arrived = true;
     s.arrived_s = time_s;
   }
@@ -171,8 +193,9 @@ void World::Impl::control() {
     if (s.arrived)
       order(i, {0, 0, 0});
     else
-      order(i, robot.driver->drive(
-                   {time_s, s.pose, s.twist, s.goal, walls.walls(), robot.perceived, params.control_period_s}));
+      order(i, robot.driver->drive({time_s, s.pose, s.twist, s.goal, walls.walls(), robot.perceived,
+                                    params.control_period_s, s.command,
+                                    robot.params.drive.latency_s + robot.params.drive.lag_s}));
   }
 }
 
@@ -314,6 +337,7 @@ WorldSummary summarize(const World& world) {
   const ContactMeter& meter = world.contacts(0);
   WorldSummary out;
   out.arrived = robot.arrived;
+  out.goals_reached = robot.goals_reached;
   out.time_s = robot.arrived_s.value_or(world.time());
   out.path_m = robot.path_m;
   out.average_velocity = out.time_s > 0 ? out.path_m / out.time_s : 0;

@@ -24,9 +24,10 @@ struct RobotState {
   mrpt::math::TPose2D pose;      ///< true [m, rad]
   mrpt::math::TTwist2D twist;    ///< over the ground, base frame
   mrpt::math::TTwist2D command;  ///< last ordered
-  mrpt::math::TPose2D goal;
+  mrpt::math::TPose2D goal;      ///< the one it is on its way to
+  int goals_reached = 0;
   double radius_m = 0;
-  bool arrived = false;
+  bool arrived = false;  ///< at its last goal
   std::optional<double> arrived_s;
   double path_m = 0;
 };
@@ -83,6 +84,7 @@ class World {
 struct WorldSummary {
   bool success = false;  ///< arrived, and without contact
   bool arrived = false;
+  int goals_reached = 0;
   double time_s = 0;  ///< until it arrived, or the end
   double path_m = 0;
   double average_velocity = 0;          ///< path by time [m/s]

@@ -8,6 +8,16 @@
 
 namespace sidestep {
 
+void RouteParams::visit(ParamVisitor& v) {
+  v.number("length_m", length_m, {0, 1e5}, "m", "between start and goal; 0: both as given, not drawn");
+  v.number("x_low_m", x_low_m, {-1e5, 1e5}, "m", "both lie within this rectangle");
+  v.number("x_high_m", x_high_m, {-1e5, 1e5}, "m", "both lie within this rectangle");
+  v.number("y_low_m", y_low_m, {-1e5, 1e5}, "m", "both lie within this rectangle");
+  v.number("y_high_m", y_high_m, {-1e5, 1e5}, "m", "both lie within this rectangle");
+  v.number("clear_m", clear_m, {0, 100}, "m", "no wall so near to start and goal, nobody so near to the start");
+  v.number("clear_s", clear_s, {0, 100}, "s", "nor so near to the start within this time, going straight on");
+}
+
 void RobotParams::visit(ParamVisitor& v) {
   v.number("x_m", x_m, {-1e5, 1e5}, "m", "start");
   v.number("y_m", y_m, {-1e5, 1e5}, "m", "start");
@@ -17,6 +27,8 @@ void RobotParams::visit(ParamVisitor& v) {
   v.number("goal_x_m", goal_x_m, {-1e5, 1e5}, "m", "goal");
   v.number("goal_y_m", goal_y_m, {-1e5, 1e5}, "m", "goal");
   v.number("goal_tolerance_m", goal_tolerance_m, {0.001, 100}, "m", "so near, the goal is reached");
+  v.table("goals", {"x", "y"}, goals, "goals to reach one after the other, instead of goal_x_m, goal_y_m [m]");
+  v.section("route", "start and goal at random", [this](ParamVisitor& w) { route.visit(w); });
   v.text("planner", planner, "who drives: straight (turns to the goal and goes), stand, or a local planner");
   v.flag("sees_robot", sees_robot, "false: drives as if the first robot were not there");
   v.section("limits", "what the base can do", [this](ParamVisitor& w) { limits.visit(w); });
@@ -46,6 +58,7 @@ void WorldParams::visit(ParamVisitor& v) {
          "none");
   v.text("tracks", tracks, "recorded people, a CSV of t,id,x,y; empty: none");
   v.number("tracks_from_s", tracks_from_s, {-1e9, 1e9}, "s", "time of that file at which the run begins");
+  v.number("tracks_shift_s", tracks_shift_s, {0, 1e9}, "s", "the run begins up to so much later, at random");
   v.groups("walls", wall_names, "walls, by name",
            [this](const std::string& name, ParamVisitor& w) { walls[name].visit(w); });
   v.groups("robots", robot_names, "robots, by name; the first is the one under test",
@@ -67,6 +80,13 @@ void WorldParams::check() const {
   if (robot_names.empty()) throw ConfigError("robots: there is none; name at least one");
   for (const auto& name : wall_names)
     if (walls.at(name).points.size() < 2) throw ConfigError("walls." + name + ".points: has fewer than two corners");
+  for (const auto& name : robot_names) {
+    const RouteParams& r = robots.at(name).route;
+    if (r.length_m > 0 && !(std::hypot(r.x_high_m - r.x_low_m, r.y_high_m - r.y_low_m) > r.length_m &&
+                            r.x_high_m >= r.x_low_m && r.y_high_m >= r.y_low_m))
+      throw ConfigError("robots." + name + ".route.length_m = " + shortestNumber(r.length_m) +
+                        " m: does not fit into the rectangle x_low_m .. x_high_m, y_low_m .. y_high_m");
+  }
   for (const auto& [rate, key] : {std::pair{imu.rate_hz, "imu"}, {gps.rate_hz, "gps"}, {laser.rate_hz, "laser"}})
     if (rate * step_s > 1 + 1e-6)
       throw ConfigError(std::string(key) + ".rate_hz: faster than one reading a step; make step_s shorter");

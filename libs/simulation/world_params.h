@@ -15,12 +15,23 @@
 
 namespace sidestep {
 
+/// Start and goal at random: for a robot among recorded people, who come and go anywhere.
+struct RouteParams {
+  double length_m = 0;  ///< between start and goal; 0: both as given
+  double x_low_m = 0, x_high_m = 0, y_low_m = 0, y_high_m = 0;
+  double clear_m = 0.5, clear_s = 2;
+
+  void visit(ParamVisitor& v);
+};
+
 /// A robot of a world, the one under test or one in its way.
 struct RobotParams {
   double x_m = 0, y_m = 0, yaw = 0;  ///< start
   double goal_x_m = 0, goal_y_m = 0, goal_tolerance_m = 0.3;
+  Table goals;               ///< x, y: to be reached one after the other; empty: the one above
   double start_shift_m = 0;  ///< start: at random within so much in x and y
   double start_speed = 0;    ///< m/s
+  RouteParams route;
   std::string planner = "straight";
   bool sees_robot = true;  ///< false: the first robot does not exist for it
   RobotLimits limits;
@@ -45,7 +56,7 @@ struct WorldParams {
   double duration_s = 60;
   double people_record_hz = 10;
   std::string map, tracks;  ///< files, which whoever makes the world reads
-  double tracks_from_s = 0;
+  double tracks_from_s = 0, tracks_shift_s = 0;
   std::vector<std::string> wall_names, robot_names, people_names;
   std::map<std::string, WallParams> walls;
   std::map<std::string, RobotParams> robots;

@@ -17,6 +17,7 @@ const char* const kStudy =
     "baseline: enc\n"
     "metrics: [mean_error_m]\n"
     "figures: [mean_error_m]\n"
+    "medians: [mean_error_m]\n"
     "pictures: [enc+gps]\n"
     "scenarios:\n"
     "  short:\n"
@@ -64,8 +65,12 @@ TEST(Evaluate, LeavesRunsSummaryReportAndFigures) {
        {"A &lt;small&gt; study", "data:image/png;base64,", "sidestep-evaluate study.yaml -o out", "published"})
     EXPECT_NE(report.find(text), std::string::npos) << text;
   for (const char* text : {"src=\"http", "<link", "<script"}) EXPECT_EQ(report.find(text), std::string::npos) << text;
-  for (const char* name : {"mean_error_m.png", "mean_error_m-roof.png", "run-short-enc-gps.png", "metrics.json",
-                           "effective.yaml", "command.txt"})
+  EXPECT_TRUE(s.file("out/quantiles.csv").starts_with("scenario,algorithm,metric,n,min,q05,q25,median,q75,q95,max,"));
+  EXPECT_TRUE(s.file("out/consistency.csv").starts_with("scenario,algorithm,quantity,n,mean,ci_low,ci_high,"));
+  EXPECT_NE(report.find("<h2>Consistency</h2>"), std::string::npos);
+  EXPECT_NE(report.find("<h2>Medians and tails</h2>"), std::string::npos);
+  for (const char* name : {"mean_error_m-median.png", "mean_error_m.png", "mean_error_m-roof.png",
+                           "run-short-enc-gps.png", "metrics.json", "effective.yaml", "command.txt"})
     EXPECT_GT(s.file(std::string("out/") + name).size(), 20u) << name;
   EXPECT_TRUE(nlohmann::json::parse(s.file("out/metrics.json")).at("expectations").at(0).at("met").get<bool>());
 }
@@ -168,9 +173,9 @@ TEST(Evaluate, WhatIsWrongInAStudyIsNamed) {
   EXPECT_NE(errorOf("kind: localization", "kind: localisation").find("did you mean 'localization'?"),
             std::string::npos);
   EXPECT_NE(errorOf("axis: outage_s", "axis: outage").find("did you mean 'outage_s'?"), std::string::npos);
-  EXPECT_NE(errorOf("duration_s: 3", "duration: 3").find("study.yaml:10: trajectory.duration is no known key"),
+  EXPECT_NE(errorOf("duration_s: 3", "duration: 3").find("study.yaml:11: trajectory.duration is no known key"),
             std::string::npos);
-  EXPECT_NE(errorOf("filter: odometry", "filtre: odometry").find("study.yaml:17: filtre is no known key"),
+  EXPECT_NE(errorOf("filter: odometry", "filtre: odometry").find("study.yaml:18: filtre is no known key"),
             std::string::npos);
   EXPECT_NE(errorOf("short enc+gps", "shrot enc+gps").find("matches no scenario and algorithm"), std::string::npos);
 }

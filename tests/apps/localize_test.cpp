@@ -13,8 +13,8 @@ namespace {
 
 const std::string kLog = "/usr/share/mrpt/datasets/uwb_ro-localization_demo.rawlog";
 const std::string kTruth = "/usr/share/mrpt/datasets/uwb_ro-localization_demo_GT.txt";
-const std::vector<std::string> kOutputs = {"estimate.rawlog", "trajectory.tum", "trajectory.png",
-                                           "metrics.json",    "effective.yaml", "command.txt"};
+const std::vector<std::string> kOutputs = {"estimate.rawlog", "trajectory.tum", "trajectory.png", "metrics.json",
+                                           "effective.yaml",  "command.txt",    "consistency.png"};
 
 std::string demoCommand(const std::string& log, const std::filesystem::path& out) {
   return "sidestep-localize '" + log + "' -c share/robots/uwb-demo.yaml --sensors odometry,beacons --ground-truth " +
@@ -63,7 +63,9 @@ TEST_F(LocalizeTheDemoLog, MetricsHaveTheKeysThatAreFixed) {
     for (const char* key :
          {"mean_error_m", "mean_square_error_m2", "rmse_m", "max_error_m", "final_error_m", "heading_mean_error_deg"})
       EXPECT_TRUE(m.at(who).at(key).is_number()) << who << " " << key;
-  EXPECT_TRUE(m.at("estimate").at("mean_nees").is_number());
+  for (const char* key : {"mean_nees", "nees_dof", "nees_independent", "nees_low", "nees_high", "sd_factor"})
+    EXPECT_TRUE(m.at("estimate").at(key).is_number()) << key;
+  EXPECT_EQ(m.at("estimate").at("verdict"), "over-confident");  // doc/results.md: 4.65, of which little is independent
   EXPECT_EQ(m.at("sensors").size(), 2u) << m.at("sensors");
   for (const auto& [label, sensor] : m.at("sensors").items()) {
     const uint64_t read = sensor.at("read"), used = sensor.at("used");
@@ -76,6 +78,18 @@ TEST_F(LocalizeTheDemoLog, MetricsHaveTheKeysThatAreFixed) {
   EXPECT_TRUE(m.at("sensors").at("beacons").at("mean_nis").is_number());
   EXPECT_FALSE(m.at("partial").get<bool>());
   EXPECT_NEAR(m.at("duration_s").get<double>(), 363, 1);  // the log's length, as MRPT's rawlog-edit says
+}
+
+TEST_F(LocalizeTheDemoLog, TheParticleFilterSaysWhereElseTheRobotMayBe) {
+  const TemporaryFolder folder;
+  const auto run = runShell(demoCommand(kLog, folder / "out") + " --filter pf --to 30 --no-picture");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto rows = linesOf(readFile(folder / "out" / "modes.csv"));
+  EXPECT_EQ(rows.at(0), "time_s,weight,x_m,y_m,yaw_deg,sd_x_m,sd_y_m,sd_yaw_deg");
+  EXPECT_GT(rows.size(), 25u);  // a look a second
+  const auto m = metricsIn(folder / "out");
+  EXPECT_GE(m.at("most_modes").get<int>(), 1);
+  EXPECT_FALSE(std::filesystem::exists(out() / "modes.csv"));  // an EKF has one place
 }
 
 /// The targets of `make demo`; a plain EKF with a gate, written apart from this one, gives 0.15 m and 2.1 deg.

@@ -47,6 +47,26 @@ TEST(PlanBand, ThreadsChangeNothingButTheTimes) {
             withoutTimes(readFile(folder / "three/results.csv"), 4, 2));
 }
 
+TEST(PlanBand, ExplainAndVerifySayWhatWasFoundAndWhatExists) {
+  const TemporaryFolder folder;
+  const std::string command = "sidestep-plan band --repeats 1 --explain --verify --problems " + kBand;
+  ASSERT_EQ(runShell(command + " --planner teb -o still", folder.path()).exit_code, 0);
+  ASSERT_EQ(runShell(command + " --planner eteb --moving -o moving", folder.path()).exit_code, 0);
+  for (const char* run : {"still", "moving"}) {
+    const auto rows = linesOf(readFile(folder / (std::string(run) + "/results.csv")));
+    EXPECT_TRUE(rows[0].ends_with(",cost,way_exists,least_s"));
+    for (size_t k = 1; k < rows.size(); ++k) {
+      EXPECT_NE(rows[k].find(",yes,"), std::string::npos) << rows[k];
+      EXPECT_GE(std::stod(rows[k].substr(rows[k].rfind(',') + 1)), 10.0 - 1e-9);  // 8 m straight, from rest to rest
+    }
+    const auto lines = linesOf(readFile(folder / (std::string(run) + "/candidates.csv")));
+    EXPECT_TRUE(lines[0].starts_with("n_obs,seed,candidate,chosen,rejected,total,transition_s,time,nonholonomic,"));
+    size_t chosen = 0;
+    for (const auto& line : lines) chosen += line.find(",1,,") != std::string::npos ? 1 : 0;
+    EXPECT_EQ(chosen, rows.size() - 1) << "one of each problem";
+  }
+}
+
 TEST(PlanBand, ABrokenRowIsNamedWithItsLine) {
   const TemporaryFolder folder;
   writeFile(folder / "p.csv", "n_obs,seed,i,x,y,vx,vy\n5,1,0,1,2,0,0\n5,1,1,nan,2,0,0\n");

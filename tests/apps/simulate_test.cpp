@@ -33,6 +33,37 @@ TEST(Simulate, ALocalizationScenarioBecomesAHealthyLogWithTruth) {
   EXPECT_NEAR(jsonOf(folder / "out" / "metrics.json")["path_m"].get<double>(), 16, 1e-9);
 }
 
+TEST(Simulate, SnapshotsShowWhatEachPlannerConsiders) {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "out").string();
+  const auto run = runShell(
+      "sidestep-simulate share/scenarios/teb-crossing.yaml --planner teb,eteb --snapshots 1,2 --no-picture -o '" + out +
+      "'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  // a PNG of two columns of 460 pixels: width and height stand big-endian from byte 16 on
+  const std::string png = readFile(folder / "out" / "snapshots.png");
+  ASSERT_GT(png.size(), 5000u);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(static_cast<unsigned char>(png[18]) * 256 + static_cast<unsigned char>(png[19]), 920);
+
+  const auto refused = runShell("sidestep-simulate share/scenarios/circle.yaml --snapshots 1 -o '" + out + "2'");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("only of scenarios of kind: world"), std::string::npos) << refused.err;
+  const auto two = runShell("sidestep-simulate share/scenarios/teb-crossing.yaml --planner teb,eteb -o '" + out + "3'");
+  EXPECT_EQ(two.exit_code, 2);
+  EXPECT_NE(two.err.find("more than one only with --snapshots"), std::string::npos) << two.err;
+}
+
+TEST(Simulate, TheRobotOfTheHallwayIsGivenAPathAndReachesAllItsGoals) {
+  const TemporaryFolder folder;
+  const auto run = runShell("sidestep-simulate share/scenarios/hallway.yaml --no-picture --seed 3 -o '" +
+                            (folder / "out").string() + "'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto metrics = jsonOf(folder / "out" / "metrics.json");
+  EXPECT_EQ(metrics["goals_reached"], 8);
+  EXPECT_EQ(metrics["contacts"]["robot_into_wall"], 0);
+}
+
 TEST(Simulate, TheLocalizerWorksOnWhatComesOut) {
   const TemporaryFolder folder;
   const std::string out = (folder / "out").string(), estimate = (folder / "estimate").string();
@@ -104,6 +135,32 @@ TEST(Simulate, AFilmNeedsFfmpegAndSaysSo) {
   EXPECT_EQ(linesOf(readFile(folder / "seen")).size(), 21u);
   EXPECT_EQ(readFile(folder / "out" / "run.mp4"), "film\n");
   EXPECT_FALSE(std::filesystem::exists(folder / "out" / "frames"));
+}
+
+TEST(Simulate, ExplainsWhyThePlannerDidWhatItDid) {
+  const TemporaryFolder folder;
+  writeFile(folder / "w.yaml",
+            "kind: world\nduration_s: 0.2\nrobots: {robot: {goal_x_m: 9, planner: edwa}}\nplanners: {edwa: {window: "
+            "{v_samples: 3, w_samples: 5}}}\n");
+  auto run = runShell("sidestep-simulate w.yaml --explain -o out", folder.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto rows = linesOf(readFile(folder / "out" / "explain.csv"));
+  EXPECT_EQ(rows[0], "time_s,candidate,chosen,v,w,end_x,end_y,heading,clearance,speed,total,why");
+  ASSERT_EQ(rows.size(), 1u + 4 * 15);  // four cycles of 3 x 5 velocities
+  int chosen = 0, dearer = 0;
+  for (const auto& row : rows) {
+    chosen += row.ends_with(",\"costs more\"") ? 0 : 1;
+    dearer += row.ends_with(",\"costs more\"") ? 1 : 0;
+  }
+  EXPECT_EQ(chosen, 1 + 4);
+  EXPECT_EQ(dearer, 4 * 14);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "timeline.png"));
+  writeFile(folder / "s.yaml", kShort);
+  run = runShell("sidestep-simulate s.yaml --explain -o no", folder.path());
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("--explain: the first robot is driven by straight, which is no local planner"),
+            std::string::npos)
+      << run.err;
 }
 
 TEST(Simulate, WrongScenariosAreOneLineThatSaysWhere) {

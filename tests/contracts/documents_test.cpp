@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/localization_config.h"
+#include "planning/band/band_planner.h"
 #include "sidestep-plan/path_config.h"
 #include "support/run_program.h"
 
@@ -70,6 +71,7 @@ TEST(Documents, EachProgramIsInTheListOfPrograms) {
 TEST(Documents, TheTableOfParametersIsThatOfTheCode) {
   LocalizeConfig config;
   PathConfig path;
+  BandPlannerParams band;
   const std::string expected =
       "# Parameters\n\n"
       "All that a YAML for `sidestep-localize` may hold, with defaults. Generated from the code; do not edit. After a\n"
@@ -79,7 +81,9 @@ TEST(Documents, TheTableOfParametersIsThatOfTheCode) {
       "default. `sidestep-localize --write-config` prints the same as YAML.\n\n" +
       markdownTable([&](ParamVisitor& v) { config.visit(v); }) +
       "\n## sidestep-plan path\n\n`sidestep-plan path --write-config` prints them as YAML.\n\n" +
-      markdownTable([&](ParamVisitor& v) { path.visit(v); });
+      markdownTable([&](ParamVisitor& v) { path.visit(v); }) +
+      "\n## sidestep-plan band\n\n`sidestep-plan band --write-config` prints them as YAML, with the robot's.\n\n" +
+      markdownTable([&](ParamVisitor& v) { v.section("planner", "", [&](ParamVisitor& s) { band.visit(s); }); });
   const auto file = kSource / "doc" / "parameters.md";
   if (std::getenv("SIDESTEP_REGENERATE") != nullptr) writeFile(file, expected);
   EXPECT_EQ(readFile(file), expected)

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "core/errors.h"
+#include "evaluation/data_path.h"
 
 namespace sidestep {
 namespace {
@@ -50,7 +51,7 @@ TEST(DriveMetrics, ALossIsMeasuredAgainstTheTwinWithoutIt) {
   const auto twin = driveWith({1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
   const auto run = driveWith({1, 1, 1, 2, 4, 6, 3, 2, 1, 1});
   const SignalLoss loss{true, true, 3, 6};  // seconds 3, 4, 5
-  const auto m = driveMetrics(run, twin, loss, 0);
+  const auto m = driveMetrics(run, errorsOf(twin), loss, 0);
   EXPECT_DOUBLE_EQ(value(m, "outage_error_m"), 4);
   EXPECT_DOUBLE_EQ(value(m, "outage_end_error_m"), 6);
   EXPECT_DOUBLE_EQ(value(m, "outage_added_m"), 5);
@@ -58,13 +59,46 @@ TEST(DriveMetrics, ALossIsMeasuredAgainstTheTwinWithoutIt) {
 }
 
 TEST(DriveMetrics, WhatNeverRecoversCountsUntilTheEnd) {
-  const auto m = driveMetrics(driveWith({1, 1, 5, 5, 5, 5}), driveWith({1, 1, 1, 1, 1, 1}), {true, false, 2, 3}, 0);
+  const auto m =
+      driveMetrics(driveWith({1, 1, 5, 5, 5, 5}), errorsOf(driveWith({1, 1, 1, 1, 1, 1})), {true, false, 2, 3}, 0);
   EXPECT_DOUBLE_EQ(value(m, "recovery_s"), 2);  // from 3 s to 5 s
 }
 
 TEST(DriveMetrics, WhatTheLossDidNotHarmIsRecoveredAtOnce) {
   const auto r = driveWith({1, 1, 1, 1, 1});
-  EXPECT_EQ(value(driveMetrics(r, r, {true, false, 1.5, 2.5}, 0), "recovery_s"), 0);
+  EXPECT_EQ(value(driveMetrics(r, errorsOf(r), {true, false, 1.5, 2.5}, 0), "recovery_s"), 0);
+}
+
+TEST(DriveMetrics, DeadReckoningIsMeasuredFromTheTruePoseAtTheStartOfTheLoss) {
+  // Off by 5 m and 90 deg until then; from 3 s on it goes wrong by 0, 1, 2 m.
+  auto r = driveWith({0, 0, 0, 0, 1, 2});
+  for (auto& p : r.pairs) p.estimate = mrpt::math::TPose2D(5, 0, M_PI / 2) + p.estimate;
+  const SignalLoss loss{true, true, 3, 6};
+  layOntoTruthAt(loss.from_s, r);
+  const auto m = driveMetrics(r, {}, loss, 0);
+  EXPECT_NEAR(value(m, "outage_error_m"), 1, 1e-9);
+  EXPECT_NEAR(value(m, "outage_end_error_m"), 2, 1e-9);
+  for (const char* name : {"outage_added_m", "recovery_s", "recovered"})
+    EXPECT_TRUE(std::isnan(value(m, name))) << name;
+}
+
+TEST(DriveMetrics, SaysWhetherARunRecovered) {
+  const auto twin = errorsOf(driveWith({1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(value(driveMetrics(driveWith({1, 1, 5, 5, 5, 5}), twin, {true, false, 2, 3}, 0), "recovered"), 0);
+  EXPECT_EQ(value(driveMetrics(driveWith({1, 1, 5, 5, 1, 5}), twin, {true, false, 2, 3}, 0), "recovered"), 1);
+}
+
+TEST(DriveMetrics, ConsistencyIsByWhatAConsistentFilterHas) {
+  auto r = driveWith({1, 1, 1, 1});
+  r.nis = {{"gps", 400, 200, 200, 2}, {"imu", 900, 100, 100, 1}};
+  r.gate_probability = 1;
+  const auto m = driveMetrics(r, {}, {}, 0);
+  EXPECT_DOUBLE_EQ(value(m, "nees"), 1.0 / 3);
+  EXPECT_DOUBLE_EQ(value(m, "nis_gps"), 1);
+  EXPECT_EQ(value(m, "nis_gps_in_band"), 1);
+  EXPECT_DOUBLE_EQ(value(m, "nis_imu"), 9);
+  EXPECT_EQ(value(m, "nis_imu_in_band"), 0);
+  EXPECT_TRUE(std::isnan(value(m, "nis_beacons")));
 }
 
 TEST(DriveMetrics, ACovarianceThatKnowsADirectionExactlySaysNothing) {

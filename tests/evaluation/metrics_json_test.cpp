@@ -42,7 +42,7 @@ TEST(MetricsJson, HasItsKeysInOrder) {
   for (const auto& item : json["estimate"].items()) keys += item.key() + " ";
   EXPECT_EQ(keys,
             "mean_error_m mean_square_error_m2 rmse_m max_error_m final_error_m heading_mean_error_deg samples "
-            "alignment T_truth_estimate mean_nees ");
+            "alignment T_truth_estimate mean_nees nees_dof nees_independent verdict ");
 }
 
 TEST(MetricsJson, SaysWhatWasMeasured) {
@@ -77,10 +77,11 @@ TEST(MetricsJson, HasEmptyErrorsWithoutTruth) {
 TEST(MetricsJson, NoticesAFullDisk) { EXPECT_THROW(writeMetrics({}, "/dev/full"), DatasetError); }
 
 TEST(ErrorTable, HasARowForEachTrajectory) {
-  EXPECT_EQ(errorTable(example()),
-            "            mean error [m]        rmse [m]         max [m]       final [m]   heading [deg]            NEES\n"
-            "odometry             0.250           0.000               -           0.000               -               -\n"
-            "estimate             0.250           0.000           0.000           0.000            0.00            2.50\n");
+  EXPECT_EQ(
+      errorTable(example()),
+      "            mean error [m]        rmse [m]         max [m]       final [m]   heading [deg]            NEES\n"
+      "odometry             0.250           0.000               -           0.000               -               -\n"
+      "estimate             0.250           0.000           0.000           0.000            0.00            2.50\n");
 }
 
 TEST(PeakMemory, IsThatOfThisProcess) {

@@ -70,6 +70,44 @@ bool finite(const PoseBelief& b) {
   return std::isfinite(b.mean.x) && std::isfinite(b.mean.y) && std::isfinite(b.mean.phi) && b.covariance.allFinite();
 }
 
+TEST(Localizer, AFixAndAHeadingOfOneInstantAreTheSameByPartsAndAtOnce) {
+  // (3.14); to a Kalman filter whose linear measurements come at one pose it makes no difference.
+  auto params = fromOrigin();
+  params.start.position_sd_m = 1;
+  params.start.yaw_sd = 0.2;
+  EkfParams ekf;
+  ekf.gate = false;
+  Robot parts(params, {}, ekf), at_once(params, {}, ekf);
+  for (auto* r : {&parts, &at_once}) {
+    r->wheels(0, {});
+    r->drive(0, 1);
+  }
+  parts.localizer.heading(Robot::kImu, kStart_s + 1, 0.15);
+  parts.fix(1, 1.2, 0.1);
+  at_once.localizer.positionHeading(Robot::kGps, kStart_s + 1, 1.2, 0.1, 0.15);
+  expectEqual(parts.finish().back().belief, at_once.finish().back().belief);
+  EXPECT_EQ(at_once.gps().nis_dof, 3);
+}
+
+TEST(Localizer, RecordsEachInnovationOnceWhenAskedTo) {
+  Robot silent, robot;
+  robot.localizer.recordMore(0);
+  for (auto* r : {&silent, &robot}) {
+    r->wheels(0, {});
+    r->drive(0, 1);
+    r->fix(0.75, 0.7, 0.1);  // late: what followed is played again
+    r->fix(0.35, 0.3, 0.1);
+    r->finish();
+  }
+  EXPECT_TRUE(silent.localizer.takeInnovations().empty());
+  const auto records = robot.localizer.takeInnovations();
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_NEAR(records[0].time_s - kStart_s, 0.75, 1e-6);
+  EXPECT_EQ(records[0].stream, Robot::kGps);
+  EXPECT_EQ(records[0].dof, 2);
+  EXPECT_TRUE(records[0].accepted);
+}
+
 // ---- measurements in time ----
 
 TEST(Localizer, PutsAFixBetweenTwoOdometryReadings) {

@@ -453,6 +453,48 @@ TEST(ParticleFilterCalibration, LearnsTheBiasOfAGyroAtRest) {
   EXPECT_NEAR(with.estimate().mean.phi, 1, 0.005);  // 0.5 rad in 10 s were all bias
 }
 
+TEST(ParticleFilterCalibration, LearnsGyroBiasAndWheelScaleWhileMoving) {
+  // The gyro reads 0.03 rad/s too much, the wheels 5 % too little; only fixes tell.
+  auto params = paramsWith(1000);
+  params.yaw_rate_bias_sd = 0.05;
+  params.wheel_scale_sd = 0.1;
+  ParticleFilter filter(params, 26);
+  filter.start(beliefOf({0, 0, 0}, 0.5, 0.1));
+  Random random(27);
+  mrpt::math::TPose2D truth{0, 0, 0};
+  for (int k = 1; k <= 600; ++k) {
+    const double turn = 0.1 * std::sin(0.05 * k);
+    auto step = stepOf(0.5, 0.5 / 1.05, turn + 0.03 * 0.5, 0.01, 0.005);
+    step.turn_from_gyro = true;
+    truth = moved(truth, stepOf(0.5, 0.5, turn));
+    filter.predict(step);
+    filter.correct(fix(0.5 * k, truth.x + 0.3 * random.gaussian(), truth.y + 0.3 * random.gaussian(), 0.3));
+  }
+  const auto& c = filter.cloud();
+  const auto n = static_cast<Eigen::Index>(c.size());
+  EXPECT_NEAR((c.weights() * c.bias.head(n)).sum(), 0.03, 0.005);
+  EXPECT_NEAR((c.weights() * c.scale.head(n)).sum(), 0.05, 0.02);
+  EXPECT_NEAR(std::remainder(filter.estimate().mean.phi - truth.phi, 2 * M_PI), 0, 0.05);
+}
+
+TEST(ParticleFilterCalibration, WhatIsLearntIsPartOfTheState) {
+  auto params = paramsWith(100);
+  params.yaw_rate_bias_sd = 0.05;
+  params.wheel_scale_sd = 0.1;
+  ParticleFilter a(params, 28), b(params, 29);
+  a.start(beliefOf({0, 0, 0}, 0.5, 0.1));
+  auto step = stepOf(1, 1, 0.1, 0.1, 0.1);
+  step.turn_from_gyro = true;
+  a.predict(step);
+  a.correct(fix(1, 1.2, 0.3, 0.2));
+  b.restore(saved(a));
+  for (auto* f : {&a, &b}) {
+    f->predict(step);
+    f->correct(fix(2, 2.3, 0.5, 0.2));
+  }
+  EXPECT_TRUE(saved(a) == saved(b));
+}
+
 // ---- consistency ----
 
 TEST(ParticleFilterConsistency, HasTheErrorsThatItsCovarianceSays) {

@@ -142,7 +142,7 @@ TEST(BandCosts, ClearanceOfStillAndMovingObstaclesHasTheDerivativesItSays) {
   view.kind = MovingView::Kind::kInTime;
   ObstacleView obstacles;
   obstacles.build({points, walls, moving, nullptr}, view, {-3, -3, 3, 3}, 0.8);
-  const ClearanceCost cost{0.3, 0.5, 0.4};
+  const ClearanceCost cost{Footprint(0.3), 0.5, 0.4};
   expectDerivativesEverywhere([&](const Vector& x) {
     Rows rows;
     const BandPose pose = poseIn(x, 0);

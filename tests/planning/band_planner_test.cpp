@@ -117,13 +117,88 @@ TEST(BandPlanner, AtTheGoalItStops) {
   EXPECT_EQ(out.command.vx, 0);
 }
 
-TEST(BandPlanner, WithoutTimeItStillAnswersWithACheckedBand) {
-  BandScene scene(5, 10, 0);
-  PlanInput in = scene.input();
-  in.out_of_time = [] { return true; };
-  const auto out = planOnce(bandPlannerParams("teb"), in);
-  EXPECT_NE(out.status, Status::kGoalReached);
-  EXPECT_TRUE(std::isfinite(out.command.vx));
+/// Plans with time for so many questions after it. @return how often it asked
+int planWithPatience(int patience, const PlanInput& input, BandPlanner& planner, PlanOutput& out) {
+  int asked = 0;
+  PlanInput in = input;
+  in.out_of_time = [&] { return ++asked > patience; };
+  planner.plan(in, out);
+  return asked;
+}
+
+TEST(BandPlanner, WhenTimeIsOverTheBestCheckedBandSoFarLeaves) {
+  for (const char* name : {"teb", "eteb"})
+    for (uint64_t seed = 1; seed <= 10; ++seed)
+      for (int patience : {0, 3, 20}) {
+        BandScene scene(seed, 10, 3);
+        BandPlanner planner(bandPlannerParams(name));
+        PlanOutput out;
+        const int asked = planWithPatience(patience, scene.input(), planner, out);
+        EXPECT_LE(asked, patience + 40) << "each loop asks once and ends";
+        ASSERT_EQ(out.status, Status::kMoving) << name << seed << out.reason;
+        const BandExtremes most = extremesOf(planner.chosen()->band, planner.chosen()->ends);
+        EXPECT_LE(most.v, 1.01);
+        EXPECT_LE(most.a, 0.505) << name << seed << " " << patience;
+        EXPECT_LE(most.turn_accel, 0.505) << name << seed << " " << patience;
+      }
+}
+
+TEST(BandPlanner, WithMoreTimeTheBandCostsNoMore) {
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    double before = 1e9;
+    for (int patience : {0, 10, 1000}) {
+      BandScene scene(seed, 10, 0);
+      BandPlannerParams params = bandPlannerParams("teb");
+      params.exploration.classes_max = 1;
+      BandPlanner planner(params);
+      PlanOutput out;
+      planWithPatience(patience, scene.input(), planner, out);
+      ASSERT_NE(planner.chosen(), nullptr);
+      EXPECT_LE(planner.chosen()->result.cost, before + 1e-9) << seed << " " << patience;
+      before = planner.chosen()->result.cost;
+    }
+  }
+}
+
+TEST(BandPlanner, TurningToAndFroIsNamedAsOscillation) {
+  // somebody moves the goal from one side to the other every half second
+  PlanInput in;
+  BandPlanner planner(bandPlannerParams("teb"));
+  PlanOutput out;
+  int named = 0;
+  for (int k = 0; k < 60; ++k) {
+    in.goal = {8, k / 5 % 2 == 0 ? 6.0 : -6.0, 0};
+    in.time_s = 0.1 * k;
+    in.limits.turn_accel = 3;
+    planner.plan(in, out);
+    in.twist = out.command;
+    in.pose.phi += out.command.omega * in.period_s;
+    named += out.reason.starts_with("oscillation: ") ? 1 : 0;
+  }
+  EXPECT_GT(named, 0);
+}
+
+TEST(BandPlanner, ABandThatIsNotFiniteIsNamedAsDiverged) {
+  BandOptimizer optimizer({}, {});
+  Band band = {{0, 0, 0, 0}, {1, std::numeric_limits<double>::quiet_NaN(), 0, 1}, {2, 0, 0, 2}, {3, 0, 0, 3}};
+  EXPECT_TRUE(optimizer.optimize({}, false, {}, band).diverged);
+}
+
+TEST(BandPlanner, CandidatesSayWhatWasComparedAndWhyTheyLost) {
+  BandScene scene(3, 12, 0);
+  BandPlanner planner(bandPlannerParams("teb"));
+  planner.explain(true);
+  PlanOutput out;
+  planner.plan(scene.input(), out);
+  ASSERT_GE(out.candidates.size(), 2u);
+  int chosen = 0;
+  for (const auto& c : out.candidates) {
+    double sum = 0;
+    for (const auto& [term, cost] : c.costs) sum += cost;
+    EXPECT_NEAR(sum, c.total, 1e-9 * (1 + c.total));
+    chosen += c.rejected.empty() ? 1 : 0;
+  }
+  EXPECT_EQ(chosen, 1);
 }
 
 TEST(BandPlanner, PtebPaysEachCandidateItsOwnAngle) {
@@ -150,12 +225,13 @@ TEST(BandPlanner, EightHundredObstaclesLeaveAWay) {
 }
 
 TEST(BandPlanner, CommandsAreFiniteAndInsideTheLimitsWhateverComes) {
-  int braked = 0;
-  for (uint64_t seed = 1; seed <= 300; ++seed) {
-    const std::string wrong = support::fuzzBandPlanner(seed, braked);
+  support::FuzzCount count;
+  for (uint64_t seed = 1; seed <= 500; ++seed) {
+    const std::string wrong = support::fuzzBandPlanner(seed, count);
     EXPECT_EQ(wrong, "") << "seed " << seed;
   }
-  EXPECT_GT(braked, 0);
+  EXPECT_GT(count.braked, 0);
+  EXPECT_GT(count.reached, 0);
 }
 
 }  // namespace

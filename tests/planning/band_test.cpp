@@ -63,6 +63,13 @@ TEST(Band, RetimingLeavesAFeasibleBandAsItIs) {
   for (size_t k = 0; k < band.size(); ++k) EXPECT_EQ(band[k].t, before[k].t);
 }
 
+TEST(Band, RetimingOfATurnTooSmallToSeeAgainstTheRobotsOwnStaysFinite) {
+  // found by the fuzzer: the robot turns to the right, the band by 1e-17 rad to the left
+  Band band = {{0, 0, 0, 0}, {0.2, 0, 1e-17, 0.3}, {0.4, 0, 1e-17, 0.6}, {0.6, 0, 1e-17, 0.9}};
+  retime(band, {}, {0.3, -1.4, true});
+  for (const auto& p : band) EXPECT_LT(p.t, 100);
+}
+
 TEST(Band, RetimedFromScratchAStraightBandNeedsTheShortestTime) {
   Band band = straight(8, 40, 20);
   retime(band, {}, {}, Retiming::kQuickest);

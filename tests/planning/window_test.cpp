@@ -111,6 +111,45 @@ TEST(Surroundings, MovingObstaclesAreMetWhereTheyWillBe) {
   EXPECT_EQ(followed(world.shown(), 0.3, 0).free_s, std::numeric_limits<double>::infinity());
 }
 
+/// Whether the robot at 1 m/s, driving straight on for 0.25 s and braking by 1 m/s^2, can stay where it stops, 0.75 m
+/// on.
+bool canStop(const PlanInput& input) {
+  Surroundings s;
+  s.look(input, 3, 0.1, 0, true, 0);
+  std::vector<double> x, y;
+  for (int k = 0; k <= s.steps(); ++k) {
+    x.push_back(k * s.step());
+    y.push_back(0);
+  }
+  return s.canStop(x, y, rollout(1, 0), 0.25, 1);
+}
+
+TEST(Surroundings, StandingWhereSomebodyComesIsNoWayOut) {
+  auto world = openWorld();
+  EXPECT_TRUE(canStop(world.shown()));
+  // A wall beyond the stop is no matter, one before it is. Radius 0.3.
+  world.walls = {{{1.1, -2}, {1.1, 2}}};
+  EXPECT_TRUE(canStop(world.shown()));
+  world.walls = {{{0.9, -2}, {0.9, 2}}};
+  EXPECT_FALSE(canStop(world.shown()));
+  world.walls.clear();
+  // Who stands behind the stop leaves room; who comes along the line does not, even if only after the look-ahead
+  // of 3 s, when 5 m off at 1 m/s; who comes later than twice that does not count.
+  world.moving = {person(2, 0, 0, 0)};
+  EXPECT_TRUE(canStop(world.shown()));
+  world.moving = {person(2, 0, -1, 0)};
+  EXPECT_FALSE(canStop(world.shown()));
+  world.moving = {person(5, 0, -1, 0)};
+  EXPECT_FALSE(canStop(world.shown()));
+  world.moving = {person(8, 0, -1, 0)};
+  EXPECT_TRUE(canStop(world.shown()));
+  // Who crosses behind or beside the place where it stops is let by.
+  world.moving = {person(0.75, -2, 0, 1)};
+  EXPECT_FALSE(canStop(world.shown()));
+  world.moving = {person(1.4, -2, 0, 1)};
+  EXPECT_TRUE(canStop(world.shown()));
+}
+
 TEST(Surroundings, PredictedPathsAndGrowingDoubtAreFollowed) {
   // Stands for 1 s, then comes at 1 m/s.
   auto world = openWorld();

@@ -41,6 +41,33 @@ TEST(World, AnEmptyWayIsGoneInTheTimeThatTheLimitsAllow) {
   EXPECT_FALSE(std::isfinite(s.min_clearance_m));
 }
 
+TEST(World, GoalsAreReachedOneAfterTheOther) {
+  auto p = lane();
+  p.robots["robot"].goals = {{4, 0}, {4, 3}, {0, 3}};
+  World world(p, 1);
+  std::vector<double> at_goals;
+  world.run([&] {
+    if (world.robots()[0].goals_reached > static_cast<int>(at_goals.size())) at_goals.push_back(world.time());
+    return true;
+  });
+  const auto s = summarize(world);
+  EXPECT_TRUE(s.arrived);
+  EXPECT_EQ(s.goals_reached, 3);
+  ASSERT_EQ(at_goals.size(), 3u);
+  EXPECT_LT(at_goals[0], at_goals[1]);
+  EXPECT_DOUBLE_EQ(at_goals[2], s.time_s);
+  // 4 + 3 + 4 m, less the tolerance of 0.3 m at each goal
+  EXPECT_GT(s.path_m, 9.5);
+  EXPECT_LT(s.path_m, 11.5);
+  EXPECT_NEAR(world.robots()[0].pose.y, 3, 0.3);
+
+  p.duration_s = at_goals[1] + 0.5;
+  World shorter(p, 1);
+  shorter.run();
+  EXPECT_FALSE(summarize(shorter).arrived);
+  EXPECT_EQ(summarize(shorter).goals_reached, 2);
+}
+
 TEST(World, ClearanceIsExactBetweenSteps) {
   // Two discs pass each other at 0.05 m between their rims, in steps of 0.1 s that never see them side by side.
   SweptDisc a{{0, 0}, {0.4, 0}, 0.3}, b{{0.3, 0.65}, {-0.3, 0.65}, 0.3};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "maps/distance_field.h"
 #include "planning/band/band_planner.h"
 
 namespace sidestep::support {
@@ -72,71 +73,169 @@ inline std::string complaint(const PlanOutput& out, const PlanInput& in) {
   return "";
 }
 
-/// One random problem, with a few plans in a row: obstacles on the robot, the goal in an obstacle, at the robot, behind
-/// it, 0 to 800 obstacles, numbers that are not finite. @return what went wrong, "" if nothing
-inline std::string fuzzBandPlanner(uint64_t seed, int& braked) {
-  Random random(seed);
-  const auto& names = bandPlannerNames();
-  BandPlannerParams params = bandPlannerParams(names[random.below(names.size())]);
-  params.exploration.classes_max = 1 + static_cast<int>(random.below(4));
-  BandPlanner planner(params);
-  PlanInput in;
-  in.pose = {random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-4, 4)};
-  in.twist = {random.uniform(-in.limits.v_reverse, in.limits.v_max), 0, random.uniform(-1, 1) * in.limits.w_max};
-  if (random.below(5) == 0) in.limits.wheel_speed_max = random.uniform(0.2, 1.5);
-  const uint64_t where = random.below(6);
-  in.goal = {in.pose.x + random.uniform(-9, 9), in.pose.y + random.uniform(-9, 9), random.uniform(-4, 4)};
-  if (where == 0) in.goal = in.pose;
-  if (where == 1) in.goal.x = in.pose.x - 3 * std::cos(in.pose.phi), in.goal.y = in.pose.y - 3 * std::sin(in.pose.phi);
-  in.goal_heading_matters = random.below(3) == 0;
-  constexpr int kCounts[] = {0, 0, 1, 3, 10, 30, 100, 800};
-  const uint64_t count = random.below(200);  // 800 rarely: they take most of the time
-  const int n = count == 0 ? 800 : kCounts[random.below(7)];
-  std::vector<mrpt::math::TPoint2D> points;
-  std::vector<MovingObstacle> moving;
-  std::vector<Segment> walls;
-  for (int i = 0; i < n; ++i) {
-    const mrpt::math::TPoint2D p(in.pose.x + random.uniform(-6, 6), in.pose.y + random.uniform(-6, 6));
-    if (random.below(2) == 0) {
-      points.push_back(p);
-      continue;
+/// What became of the plans of random problems.
+struct FuzzCount {
+  int plans = 0, braked = 0, reached = 0, diverged = 0;
+};
+
+/// A random problem: obstacles on the robot, the goal in an obstacle, at the robot, behind it, 0 to 800 obstacles (most
+/// have few), walls, a distance field, numbers that are not finite, a global path, a robot longer than wide, little
+/// time.
+class FuzzProblem {
+ public:
+  explicit FuzzProblem(uint64_t seed) : random_(seed) {
+    robot();
+    goal();
+    obstacles();
+    onTopOfEachOther();
+    notFinite();
+    globalPath();
+  }
+  BandPlannerParams params() {
+    const auto& names = bandPlannerNames();
+    BandPlannerParams params = bandPlannerParams(names[random_.below(names.size())]);
+    params.exploration.classes_max = 1 + static_cast<int>(random_.below(4));
+    if (oneIn(8)) params.footprint = {random_.uniform(0.3, 1.5), random_.uniform(0.3, 0.8), random_.uniform(-0.3, 0.3)};
+    return params;
+  }
+  /// Plans a few times while the robot drives what it is told. @return what went wrong, "" if nothing
+  std::string run(BandPlanner& planner, FuzzCount& count) {
+    int asked = 0;
+    const int patience = oneIn(10) ? static_cast<int>(random_.below(20)) : 1 << 30;
+    if (patience < 1 << 30) in_.out_of_time = [&] { return ++asked > patience; };
+    planner.explain(true);
+    PlanOutput out;
+    for (int k = 0; k < kPlans; ++k) {
+      asked = 0;
+      planner.plan(shown(), out);
+      ++count.plans;
+      if (const std::string wrong = complaint(out, in_); !wrong.empty()) return wrong;
+      for (const auto& c : out.candidates)
+        if (c.rejected == "diverged") {
+          ++count.diverged;
+          if (finite_) return "a band diverged";
+        }
+      count.braked += out.status == PlanOutput::Status::kBraking ? 1 : 0;
+      count.reached += out.status == PlanOutput::Status::kGoalReached ? 1 : 0;
+      advance(out.command);
     }
-    MovingObstacle o;
-    o.id = i;
-    o.position = p;
-    o.velocity = {random.uniform(-2, 2), random.uniform(-2, 2)};
-    o.radius_m = random.uniform(0, 0.6);
-    o.covariance = Eigen::Matrix2d::Identity() * random.uniform();
-    moving.push_back(o);
+    return "";
   }
-  if (random.below(4) == 0) points.push_back({in.pose.x, in.pose.y});
-  if (random.below(4) == 0) points.push_back({in.goal.x, in.goal.y});
-  if (random.below(4) == 0) walls.push_back({{in.pose.x + 1, in.pose.y - 2}, {in.pose.x + 1, in.pose.y + 2}});
-  if (random.below(8) == 0) walls.push_back({{in.pose.x, in.pose.y}, {in.pose.x, in.pose.y}});
-  const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300};
-  if (random.below(20) == 0) points.push_back({bad[random.below(3)], 0});
-  if (random.below(20) == 0 && !moving.empty()) moving[0].velocity.x = bad[random.below(3)];
-  if (random.below(40) == 0) in.pose.x = bad[random.below(3)];
-  std::vector<mrpt::math::TPose2D> path;
-  if (random.below(5) == 0)
+
+ private:
+  static constexpr int kPlans = 3;
+  bool oneIn(uint64_t n) { return random_.below(n) == 0; }
+
+  void robot() {
+    in_.pose = {random_.uniform(-5, 5), random_.uniform(-5, 5), random_.uniform(-4, 4)};
+    auto& l = in_.limits;
+    if (oneIn(4)) l.v_max = random_.uniform(0.2, 3), l.v_reverse = oneIn(2) ? 0 : random_.uniform(0, l.v_max);
+    if (oneIn(4)) l.accel = random_.uniform(0.1, 3), l.brake = random_.uniform(0.1, 3);
+    if (oneIn(4)) l.w_max = random_.uniform(0.2, 4), l.turn_accel = random_.uniform(0.1, 4);
+    in_.twist = {random_.uniform(-l.v_reverse, l.v_max), 0, random_.uniform(-1, 1) * l.w_max};
+    if (oneIn(5)) l.wheel_speed_max = random_.uniform(0.2, 1.5);
+  }
+  void goal() {
+    const auto& p = in_.pose;
+    in_.goal = {p.x + random_.uniform(-9, 9), p.y + random_.uniform(-9, 9), random_.uniform(-4, 4)};
+    const uint64_t where = random_.below(6);
+    if (where == 0) in_.goal = p;
+    if (where == 1) in_.goal.x = p.x - 3 * std::cos(p.phi), in_.goal.y = p.y - 3 * std::sin(p.phi);
+    in_.goal_heading_matters = oneIn(3);
+  }
+  int howMany() {
+    const double share = random_.uniform();
+    if (share < 0.0015) return 800;
+    if (share < 0.02) return 100;
+    const double most = share < 0.2 ? 0 : share < 0.7 ? 6 : share < 0.93 ? 20 : 60;
+    return static_cast<int>(random_.uniform(0, most + 1));
+  }
+  void obstacles() {
+    const int n = howMany();
+    for (int i = 0; i < n; ++i) {
+      const mrpt::math::TPoint2D p(in_.pose.x + random_.uniform(-6, 6), in_.pose.y + random_.uniform(-6, 6));
+      if (oneIn(2)) {
+        points_.push_back(p);
+        continue;
+      }
+      MovingObstacle o;
+      o.id = i;
+      o.position = p;
+      o.velocity = {random_.uniform(-2, 2), random_.uniform(-2, 2)};
+      o.radius_m = random_.uniform(0, 0.6);
+      o.covariance = Eigen::Matrix2d::Identity() * random_.uniform();
+      moving_.push_back(o);
+    }
+    if (oneIn(8)) in_.field = &roomField();
+  }
+  /// Blocks of 0.2 m to 1 m in 20 m x 20 m, the same for all problems.
+  static const DistanceField& roomField() {
+    static const DistanceField field = [] {
+      GridFrame frame;
+      frame.width = frame.height = 200;
+      frame.resolution_m = 0.1;
+      frame.T_map_grid = {-10, -10, 0};
+      std::vector<uint8_t> blocked(200 * 200);
+      Random random(1);
+      for (int block = 0; block < 25; ++block) {
+        const auto x = random.below(190), y = random.below(190), side = 2 + random.below(8);
+        for (size_t i = 0; i < side * side; ++i) blocked[(y + i / side) * 200 + x + i % side] = 1;
+      }
+      return DistanceField(frame, blocked);
+    }();
+    return field;
+  }
+  void onTopOfEachOther() {
+    const auto& p = in_.pose;
+    if (oneIn(4)) points_.push_back({p.x, p.y});
+    if (oneIn(4)) points_.push_back({in_.goal.x, in_.goal.y});
+    if (oneIn(4)) walls_.push_back({{p.x + 1, p.y - 2}, {p.x + 1, p.y + 2}});
+    if (oneIn(8)) walls_.push_back({{p.x, p.y}, {p.x, p.y}});
+  }
+  void notFinite() {
+    const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300};
+    const auto spoil = [&](double& value) {
+      value = bad[random_.below(3)];
+      finite_ = false;
+    };
+    if (oneIn(20)) points_.push_back({}), spoil(points_.back().x);
+    if (oneIn(20) && !moving_.empty()) spoil(moving_[0].velocity.x);
+    if (oneIn(40)) spoil(in_.pose.x);
+  }
+  void globalPath() {
+    if (!oneIn(5)) return;
     for (int i = 0; i <= 20; ++i)
-      path.push_back({in.pose.x + (in.goal.x - in.pose.x) * i / 20, in.pose.y + std::sin(i * 0.5), 0});
-  in.points = points;
-  in.walls = walls;
-  in.moving = moving;
-  in.path = path;
-  PlanOutput out;
-  for (int k = 0; k < 4; ++k) {
-    planner.plan(in, out);
-    if (const std::string wrong = complaint(out, in); !wrong.empty()) return wrong;
-    braked += out.status == PlanOutput::Status::kBraking ? 1 : 0;
-    in.pose.x += out.command.vx * in.period_s * std::cos(in.pose.phi);
-    in.pose.y += out.command.vx * in.period_s * std::sin(in.pose.phi);
-    in.pose.phi += out.command.omega * in.period_s;
-    in.twist = out.command;
-    in.time_s += in.period_s;
+      path_.push_back({in_.pose.x + (in_.goal.x - in_.pose.x) * i / 20, in_.pose.y + std::sin(i * 0.5), 0});
   }
-  return "";
+  const PlanInput& shown() {
+    in_.points = points_;
+    in_.walls = walls_;
+    in_.moving = moving_;
+    in_.path = path_;
+    return in_;
+  }
+  void advance(const mrpt::math::TTwist2D& command) {
+    in_.pose.x += command.vx * in_.period_s * std::cos(in_.pose.phi);
+    in_.pose.y += command.vx * in_.period_s * std::sin(in_.pose.phi);
+    in_.pose.phi += command.omega * in_.period_s;
+    in_.twist = command;
+    in_.time_s += in_.period_s;
+  }
+
+  Random random_;
+  PlanInput in_;
+  bool finite_ = true;
+  std::vector<mrpt::math::TPoint2D> points_;
+  std::vector<MovingObstacle> moving_;
+  std::vector<Segment> walls_;
+  std::vector<mrpt::math::TPose2D> path_;
+};
+
+/// @return what went wrong with the problem of a seed, "" if nothing
+inline std::string fuzzBandPlanner(uint64_t seed, FuzzCount& count) {
+  FuzzProblem problem(seed);
+  BandPlanner planner(problem.params());
+  return problem.run(planner, count);
 }
 
 }  // namespace sidestep::support

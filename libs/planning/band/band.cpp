@@ -31,7 +31,8 @@ Piece pieceOf(const BandPose& a, const BandPose& b) {
 /// larger than `limit`:   way / dt - before <= limit (dt_before + dt) / 2,   for way > 0.
 double leastTime(double way, double before, double dt_before, double limit) {
   const double b = before + limit * dt_before / 2;
-  return 2 * way / (b + std::sqrt(b * b + 2 * limit * way));
+  const double root = std::sqrt(b * b + 2 * limit * way);
+  return b < 0 ? (root - b) / limit : 2 * way / (b + root);  // the form that does not cancel
 }
 
 /// Lengthens `piece` until it does not speed up more than allowed from the neighbour's speeds. @return whether it did

@@ -133,8 +133,8 @@ void BandOptimizer::visitIntervals(const BandProblem& problem, const Band& band,
 
 template <class Sink>
 void BandOptimizer::visitPoses(const BandProblem& problem, const Band& band, Sink& sink) {
-  const ClearanceCost wished{problem.limits.radius_m, params_.distance_m, params_.distance_moving_m};
-  const ClearanceCost contact{problem.limits.radius_m, params_.distance_least_m, params_.distance_least_m};
+  const ClearanceCost wished{problem.robot, params_.distance_m, params_.distance_moving_m};
+  const ClearanceCost contact{problem.robot, params_.distance_least_m, params_.distance_least_m};
   const double inner = std::min(params_.distance_m, params_.distance_moving_m) - params_.distance_least_m;
   for (size_t k = 1; problem.obstacles != nullptr && k < band.size(); ++k) {
     bool near = false;

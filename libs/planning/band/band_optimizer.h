@@ -23,6 +23,7 @@ struct BandProblem {
   RobotLimits limits;
   BandEnds ends;
   bool goal_heading_free = true;
+  Footprint robot;
   const ObstacleView* obstacles = nullptr;
   std::span<const mrpt::math::TPoint2D> via_points;  ///< of the global path
 };

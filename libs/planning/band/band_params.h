@@ -30,10 +30,10 @@ struct BandParams {
   double distance_moving_m = 0.25;  ///< to what moves
   double distance_least_m = 0.07;   ///< least clearance that a band may have; nearer is a contact
   double limit_share = 0.99;        ///< of the limits that the optimizer keeps to; the rest is for what is left over
-  int iterations_cold = 26;         ///< of Levenberg-Marquardt, for a band from scratch
+  int iterations_cold = 30;         ///< of Levenberg-Marquardt, for a band from scratch
   int iterations_warm = 8;          ///< for one from the last plan
   double tolerance = 1e-3;          ///< relative decrease of the cost below which the optimizer stops
-  double damping = 0.3;             ///< first lambda of Levenberg-Marquardt, cold
+  double damping = 1;               ///< first lambda of Levenberg-Marquardt, cold
   double damping_warm = 1e-3;       ///< and warm
 
   void visit(ParamVisitor& v);

@@ -13,8 +13,7 @@ namespace {
 
 using Status = PlanOutput::Status;
 constexpr double kBeside_m = 3;       ///< of the plane around start and goal, beyond the graph's reach
-constexpr int kPatience = 4;          ///< plans after which a band that touches something makes room for another
-constexpr double kMuchShorter = 0.9;  ///< a fresh band of a known class is tried if it takes less than this part
+constexpr double kStanding = 0.05;    ///< m/s; slower than that the HRVO model stands
 constexpr double kContactCost = 1e3;  ///< of a band that touches something; later is cheaper
 
 bool finite(const PlanInput& in) {
@@ -34,7 +33,7 @@ bool often(double (&times)[4], double now, double window) {
 }  // namespace
 
 BandPlanner::BandPlanner(const BandPlannerParams& params)
-    : params_(params), graph_(params.exploration), hrvo_(params.hrvo) {
+    : params_(params), graph_(params.exploration), evasion_(params.evasion), hrvo_(params.hrvo) {
   const auto n = static_cast<size_t>(params.exploration.classes_max);
   workers_.assign(n, Worker(params));
   pool_.resize(n);
@@ -43,6 +42,9 @@ BandPlanner::BandPlanner(const BandPlannerParams& params)
   for (auto& c : pool_) c.band.reserve(room);
   for (auto& w : workers_) w.reserve(room);
   fresh_.reserve(room);
+  passing_.band.reserve(room);
+  timed_.resize(kTimedMost);
+  for (auto& t : timed_) t.band.reserve(room);
   checked_.reserve(room);
 }
 
@@ -53,6 +55,8 @@ void BandPlanner::reset() {
   for (auto* times : {sign_changed_, class_changed_}) std::fill(times, times + 4, -1e9);
   last_turn_ = 0;
   steady_until_ = -1e9;
+  rescue_again_ = -1e9;
+  rescue_wait_s_ = 0.25;
 }
 
 const BandCandidate* BandPlanner::chosen() const {
@@ -69,9 +73,11 @@ void BandPlanner::plan(const PlanInput& input, PlanOutput& out) {
   out.reason.clear();
   if (answeredAtDoor(input, out)) return;
   look(input);
+  advice_ = params_.view.heading_of_hrvo ? hrvoVelocity(input) : std::nullopt;
   carryOver(input);
   explore(input);
   optimizeAll(input);
+  rescue(input);
   judge(input);
   choose(input, out);
   if (explain_) explainTo(out);
@@ -106,10 +112,12 @@ void BandPlanner::look(const PlanInput& input) {
   frame_ = GoalFrame(p.x, p.y, g.x, g.y);
   const double side = std::max(params_.exploration.detour_least_m, params_.exploration.detour_share * frame_.length);
   const double margin = side + kBeside_m;
-  const GridBounds bounds{std::min(p.x, g.x) - margin, std::min(p.y, g.y) - margin, std::max(p.x, g.x) + margin,
-                          std::max(p.y, g.y) + margin};
-  view_.build({input.points, input.walls, input.moving, input.field}, params_.view.movingView(), bounds,
-              input.limits.radius_m + std::max({params_.band.distance_m, params_.band.distance_moving_m, 0.25}));
+  bounds_ = {std::min(p.x, g.x) - margin, std::min(p.y, g.y) - margin, std::max(p.x, g.x) + margin,
+             std::max(p.y, g.y) + margin};
+  problem_.robot = Footprint(params_.footprint, input.limits.radius_m);
+  reach_m_ = problem_.robot.radius_m + std::max({params_.band.distance_m, params_.band.distance_moving_m, 0.25});
+  view_.build({input.points, input.walls, input.moving, input.field}, params_.view.movingView(), bounds_, reach_m_);
+  islands_.find(input.field, frame_, side, problem_.robot.radius_m);
   problem_.limits = input.limits;
   problem_.ends = {input.twist.vx, input.twist.omega, goal_.is_goal};
   problem_.goal_heading_free = goal_.heading_free;
@@ -123,6 +131,7 @@ void BandPlanner::carryOver(const PlanInput& input) {
   const bool usable = started_ && !moved && elapsed >= 0 && elapsed < 1.0;
   for (auto& c : pool_) {
     c.fresh = false;
+    c.rejected = "";
     c.alive = c.alive && usable && prune(input, elapsed, c);
     c.chosen = c.chosen && c.alive;
   }
@@ -153,69 +162,11 @@ bool BandPlanner::prune(const PlanInput& input, double elapsed, BandCandidate& c
   return true;
 }
 
-void BandPlanner::explore(const PlanInput& input) {
-  const BandCandidate* last = chosen();
-  const bool single = params_.exploration.classes_max == 1;
-  if (single && last != nullptr && last->whole.clear) return;
-  if (!goal_.way.empty()) addAlong(goal_.way, {goal_.pose.x, goal_.pose.y}, 1, input);
-  exploreAt(1, params_.exploration.classes_max, input);
-  // passing behind may mean to be slower: the same graph for a robot that takes its time
-  constexpr double kPaces[] = {0.85, 0.7, 0.5};
-  for (const double pace : kPaces)
-    if (view_.movesInTime() && !single) exploreAt(pace, 1, input);
-  const bool nothing = std::none_of(pool_.begin(), pool_.end(), [](const auto& c) { return c.alive; });
-  const mrpt::math::TPoint2D straight[] = {{input.pose.x, input.pose.y}, {goal_.pose.x, goal_.pose.y}};
-  if (nothing) addAlong(straight, straight[1], 1, input);
-}
-
-/// Adds the classes that the gap graph holds for a robot at a part of its speed.
-void BandPlanner::exploreAt(double pace, int most, const PlanInput& input) {
-  const double radius = input.limits.radius_m, wished = radius + params_.band.distance_m;
-  RobotLimits limits = input.limits;
-  limits.v_max *= pace;
-  const SpeedProfile profile(frame_.length, std::max(input.twist.vx, 0.0), limits, goal_.is_goal);
-  const std::vector<GapPath>* paths =
-      &graph_.search({frame_, &view_, radius + params_.band.distance_least_m, wished, profile});
-  if (graph_.found() == 0) paths = &graph_.search({frame_, &view_, radius + 0.01, wished, profile});
-  const size_t n = std::min(graph_.found(), static_cast<size_t>(most));
-  for (size_t k = 0; k < n; ++k) addAlong((*paths)[k].points, (*paths)[k].beside, pace, input);
-}
-
-/// A slot without a band, or that of one that was not chosen and touches something.
-BandCandidate* BandPlanner::freeSlot() {
-  for (auto& c : pool_)
-    if (!c.alive) return &c;
-  for (auto& c : pool_)
-    if (!c.fresh && c.touching > kPatience && (!c.chosen || pool_.size() == 1)) return &c;
-  return nullptr;
-}
-
-void BandPlanner::addAlong(std::span<const mrpt::math::TPoint2D> way, const mrpt::math::TPoint2D& beside, double pace,
-                           const PlanInput& input) {
-  BandCandidate* slot = freeSlot();
-  if (slot == nullptr) return;
-  BandStart spec{
-      input.pose, goal_.pose, problem_.ends, goal_.heading_free, params_.band.interval_s, params_.band.poses_max};
-  RobotLimits limits = input.limits;
-  limits.v_max *= pace;
-  maker_.along(way, spec, limits, fresh_);
-  auto& reader = workers_[0].signature;
-  const double horizon = params_.view.prediction_horizon_s;
-  const uint64_t signature = reader.read(fresh_, frame_, view_, horizon);
-  for (auto& c : pool_) {
-    if (!c.alive || &c == slot || reader.read(c.band, frame_, view_, horizon) != signature) continue;
-    if (!c.fresh) c.beside = beside;
-    // a band that was bent around something since gone is tried against a fresh one of its class
-    if (c.fresh || fresh_.back().t > kMuchShorter * c.band.back().t) return;
-  }
-  slot->band = fresh_;
-  slot->beside = beside;
-  slot->chosen = slot->chosen && slot->alive;
-  slot->alive = slot->fresh = true;
-}
-
 void BandPlanner::optimizeAll(const PlanInput& input) {
-  const auto one = [&](int k) { optimizeOne(input, static_cast<size_t>(k)); };
+  const auto one = [&](int k) {
+    const auto i = static_cast<size_t>(k);
+    if (pool_[i].alive) optimizeOne(input, workers_[i], pool_[i]);
+  };
   const int n = static_cast<int>(pool_.size());
   if (run_ && n > 1)
     run_(n, one);
@@ -223,18 +174,23 @@ void BandPlanner::optimizeAll(const PlanInput& input) {
     for (int k = 0; k < n; ++k) one(k);
 }
 
-void BandPlanner::optimizeOne(const PlanInput& input, size_t index) {
-  BandCandidate& c = pool_[index];
-  Worker& worker = workers_[index];
-  if (!c.alive) return;
+void BandPlanner::optimizeOne(const PlanInput& input, Worker& worker, BandCandidate& c) {
   c.ends = problem_.ends;
   c.result = worker.optimizer.optimize(problem_, !c.fresh, input.out_of_time, c.band);
   retime(c.band, input.limits, c.ends);
   c.shares = worker.optimizer.shares(problem_, c.band);
   tryQuickest(input, worker, c);
-  c.whole = checkWhole(c.band, input.limits, view_);
+  examine(worker, c);
+}
+
+uint64_t BandPlanner::classOf(SignatureReader& reader, const Band& band) const {
+  return reader.read(band, frame_, view_, params_.view.prediction_horizon_s, islands_.points());
+}
+
+void BandPlanner::examine(Worker& worker, BandCandidate& c) {
+  c.whole = checkWhole(c.band, problem_.robot, view_);
   c.touching = c.whole.clear ? 0 : c.fresh ? 1 : c.touching + 1;
-  c.signature = worker.signature.read(c.band, frame_, view_, params_.view.prediction_horizon_s);
+  c.signature = classOf(worker.signature, c.band);
 }
 
 /// The same poses in the shortest time, where that costs less: the optimizer finds its way back from a wait only
@@ -252,13 +208,9 @@ void BandPlanner::tryQuickest(const PlanInput& input, Worker& worker, BandCandid
 
 /// (2.40), (4.10): what each band costs.
 void BandPlanner::judge(const PlanInput& input) {
-  dropTwins();
-  const auto wanted = params_.view.heading_of_hrvo ? hrvoHeading(input) : std::nullopt;
   for (auto& c : pool_) {
     if (!c.alive) continue;
-    c.rejected = "";
-    const double theta_p = std::atan2(c.beside.y - input.pose.y, c.beside.x - input.pose.x);  // (4.8)
-    c.heading = wanted ? params_.selection.delta_hrvo * std::abs(std::remainder(*wanted - theta_p, 2 * M_PI)) : 0;
+    c.heading = params_.selection.delta_hrvo * angleToAdvice(input, c);
     c.total = c.heading;
     for (double share : c.shares) c.total += share;
     c.total -= (1 - params_.selection.clearance_share) * c.shares[static_cast<size_t>(BandTerm::kClearance)];
@@ -268,6 +220,7 @@ void BandPlanner::judge(const PlanInput& input) {
       c.alive = c.chosen = false;
     }
   }
+  dropTwins();
 }
 
 /// Of two bands that ended in one class the cheaper stays.
@@ -281,19 +234,37 @@ void BandPlanner::dropTwins() {
       BandCandidate& worse = (a.whole.clear == b.whole.clear ? cost(b) < cost(a) : b.whole.clear) ? a : b;
       (&worse == &a ? b : a).chosen = a.chosen || b.chosen;
       worse.alive = worse.chosen = false;
+      worse.rejected = "the same class as another";
     }
 }
 
-/// (4.7): the direction of the velocity that the HRVO model would take.
-std::optional<double> BandPlanner::hrvoHeading(const PlanInput& input) {
+/// (2.29): the velocity that the HRVO model would take on its way to the goal, or to a point ahead on the path.
+std::optional<mrpt::math::TPoint2D> BandPlanner::hrvoVelocity(const PlanInput& input) {
+  constexpr double kAhead_m = 2;
   const mrpt::math::TPoint2D at(input.pose.x, input.pose.y);
+  mrpt::math::TPoint2D target(goal_.pose.x, goal_.pose.y);
+  for (auto p = goal_.way.rbegin(); p != goal_.way.rend() && (*p - at).norm() > kAhead_m; ++p) target = *p;
   const double c = std::cos(input.pose.phi), s = std::sin(input.pose.phi);
   hrvo_.begin({c * input.twist.vx, s * input.twist.vx}, input.limits.radius_m, input.period_s);
   for (const auto& o : input.moving) hrvo_.disc(hrvo_.view(o, at));
-  const double d = std::max(frame_.length, 1e-6), v = input.limits.v_max;
-  const auto answer = hrvo_.solve({v * (goal_.pose.x - at.x) / d, v * (goal_.pose.y - at.y) / d}, v);  // (2.30)
-  if (std::hypot(answer.velocity.x, answer.velocity.y) < 0.05) return std::nullopt;
-  return std::atan2(answer.velocity.y, answer.velocity.x);
+  const double v = input.limits.v_max;
+  const auto preferred = (target - at) * (v / std::max((target - at).norm(), 1e-6));  // (2.30)
+  return hrvo_.solve(preferred, v).velocity;
+}
+
+/// (4.9) with (4.7) and (4.8); 0 where the model would stand.
+double BandPlanner::angleToAdvice(const PlanInput& input, const BandCandidate& c) const {
+  if (!advice_ || std::hypot(advice_->x, advice_->y) < kStanding) return 0;
+  const double theta_p = std::atan2(c.beside.y - input.pose.y, c.beside.x - input.pose.x);
+  return std::abs(std::remainder(std::atan2(advice_->y, advice_->x) - theta_p, 2 * M_PI));
+}
+
+/// The same curve, no faster than the model would go. A planner that sees people in time knows better when to slow
+/// down.
+mrpt::math::TTwist2D BandPlanner::slowedByAdvice(const TrajectorySpeed& wanted) const {
+  if (!advice_ || !params_.selection.hrvo_speed || view_.movesInTime() || wanted.v <= 0) return {wanted.v, 0, wanted.w};
+  const double v = std::min(wanted.v, std::hypot(advice_->x, advice_->y));
+  return {v, 0, wanted.w * (wanted.v > kStanding ? v / wanted.v : 1)};
 }
 
 /// (2.39): the cheapest band, the last choice favoured, of those whose beginning is clear.
@@ -310,7 +281,7 @@ void BandPlanner::choose(const PlanInput& input, PlanOutput& out) {
   CheckResult first;
   for (size_t k : order_) {
     BandCandidate& c = pool_[k];
-    const CheckResult check = checkStart(c.band, c.ends, input.limits, view_, params_.check, driven_);
+    const CheckResult check = checkStart(c.band, c.ends, input.limits, problem_.robot, view_, params_.check, driven_);
     if (!check.clear) {
       c.rejected = "its beginning touches something";
       if (first.clear) first = check;
@@ -322,6 +293,8 @@ void BandPlanner::choose(const PlanInput& input, PlanOutput& out) {
       out.reason = "oscillation: the class changed four times in a short while; keeping this one";
       steady_until_ = input.time_s + params_.selection.oscillation_s;
     }
+    const bool soon = !c.whole.clear && c.whole.obstacle >= 0 && c.whole.contact_s < params_.evasion.before_s;
+    if (view_.movesInTime() && soon && evade(input, true, out)) return;
     follow(input, c, out);
     return;
   }
@@ -331,13 +304,15 @@ void BandPlanner::choose(const PlanInput& input, PlanOutput& out) {
     out.reason = "contact with ";
     out.reason += first.obstacle >= 0 ? "obstacle " + std::to_string(first.obstacle) : std::string("something static");
     out.reason += " in " + shortestNumber(std::round(first.contact_s * 100) / 100) + " s on every band";
+    if (evade(input, false, out)) return;
   }
   brake(input, out);
 }
 
 void BandPlanner::follow(const PlanInput& input, BandCandidate& c, PlanOutput& out) {
   const auto speed = speedAt(c.band, c.ends, input.period_s);
-  out.command = allowedCommand(speed.v, speed.w, input.twist, input.limits, input.period_s);
+  const auto slowed = slowedByAdvice(speed);
+  out.command = allowedCommand(slowed.vx, slowed.omega, input.twist, input.limits, input.period_s);
   out.status = Status::kMoving;
   for (size_t k = 0; k < c.band.size(); ++k) {
     const auto& p = c.band[k];
@@ -364,6 +339,19 @@ void BandPlanner::watchOscillation(const PlanInput& input, const BandCandidate&,
   }
 }
 
+/// Out of the way of somebody who would walk into a robot that stands; false if standing is as good.
+bool BandPlanner::evade(const PlanInput& input, bool only_if_clear, PlanOutput& out) {
+  const Evasion::Answer stand = evasion_.stand(input, view_);
+  if (stand.clear() && !only_if_clear) return false;
+  const Evasion::Answer best = evasion_.best(input, view_, {goal_.pose.x, goal_.pose.y});
+  if (only_if_clear ? !best.clear() : !best.clear() && best.contact_s < stand.contact_s + 0.2) return false;
+  out.command = allowedCommand(best.command.vx, best.command.omega, input.twist, input.limits, input.period_s);
+  out.status = Status::kMoving;
+  out.trajectory = evasion_.trajectory();
+  out.reason += out.reason.empty() ? "evades somebody" : "; evades";
+  return true;
+}
+
 /// Slows down on the curve of the last band that was clear.
 void BandPlanner::brake(const PlanInput& input, PlanOutput& out) {
   const double v = std::isfinite(input.twist.vx) ? input.twist.vx : 0;
@@ -381,13 +369,14 @@ void BandPlanner::brake(const PlanInput& input, PlanOutput& out) {
 
 void BandPlanner::explainTo(PlanOutput& out) const {
   for (const auto& c : pool_) {
-    if (!c.alive) continue;
+    if (!c.alive && *c.rejected == 0) continue;
     PlanCandidate& e = out.candidates.emplace_back();
     for (const auto& p : c.band) e.trajectory.push_back({p.t, {p.x, p.y, p.theta}, 0, 0});
     for (int i = 0; i < kBandTerms; ++i)
       e.costs.emplace_back(bandTermName(static_cast<BandTerm>(i)), c.shares[static_cast<size_t>(i)]);
     if (params_.view.heading_of_hrvo) e.costs.emplace_back("hrvo_heading", c.heading);
-    if (!c.whole.clear) e.costs.emplace_back("touches", kContactCost / (1 + c.whole.contact_s));
+    e.costs[static_cast<size_t>(BandTerm::kClearance)].second *= params_.selection.clearance_share;
+    e.costs.emplace_back("touches", c.whole.clear ? 0 : kContactCost / (1 + c.whole.contact_s));
     e.total = c.total;
     e.rejected = c.chosen ? "" : *c.rejected != 0 ? c.rejected : !c.whole.clear ? "touches something" : "dearer";
   }

@@ -6,9 +6,12 @@
 
 #include "planning/band/band_optimizer.h"
 #include "planning/band/band_start.h"
+#include "planning/band/evasion.h"
+#include "planning/band/field_islands.h"
 #include "planning/band/gap_graph.h"
 #include "planning/band/local_goal.h"
 #include "planning/band/signature.h"
+#include "planning/band/space_time_search.h"
 #include "planning/band/trajectory_check.h"
 #include "planning/local_planner.h"
 #include "planning/velocity/hrvo.h"
@@ -19,7 +22,7 @@ namespace sidestep {
 struct BandViewParams {
   std::string obstacles = "now";   ///< now: TEB, PTEB; as_printed, in_time: ETEB
   double predicted_after_s = 1.0;  ///< as_printed: how far ahead the one predicted position lies
-  double prediction_horizon_s = 12;
+  double prediction_horizon_s = 30;
   double sigmas = 0.5;
   double widening_max_m = 0.15;
   bool heading_of_hrvo = false;  ///< PTEB: candidates pay for leaving the direction of the HRVO model (4.10)
@@ -31,7 +34,8 @@ struct BandViewParams {
 struct SelectionParams {
   double hysteresis = 0.1;          ///< share by which another class must be cheaper than the last one
   double clearance_share = 0.05;    ///< of the band's clearance cost that counts in the choice (2.40)
-  double delta_hrvo = 0.5;          ///< of (4.10), table 4.4
+  double delta_hrvo = 15;           ///< of (4.10); table 4.4 has 0.5, for costs of another size
+  bool hrvo_speed = true;           ///< PTEB: no faster than the HRVO model
   double goal_tolerance_m = 0.1;    ///< the goal is reached
   double goal_tolerance_rad = 0.1;  ///< where its heading matters
   double horizon_m = 8;             ///< of a band along a global path
@@ -47,6 +51,8 @@ struct BandPlannerParams {
   BandViewParams view;
   SelectionParams selection;
   CheckParams check;
+  EvasionParams evasion;
+  FootprintParams footprint;
   HrvoParams hrvo;
 
   void visit(ParamVisitor& v);
@@ -107,6 +113,13 @@ class BandPlanner final : public LocalPlanner {
     Band spare;
   };
 
+  /// A band that waits, lets pass or goes round, before it is optimized.
+  struct TimedBand {
+    Band band;
+    mrpt::math::TPoint2D beside;
+  };
+  static constexpr size_t kTimedMost = 32;
+
   bool answeredAtDoor(const PlanInput& input, PlanOutput& out);
   void look(const PlanInput& input);
   void carryOver(const PlanInput& input);
@@ -117,28 +130,54 @@ class BandPlanner final : public LocalPlanner {
                 const PlanInput& input);
   BandCandidate* freeSlot();
   void optimizeAll(const PlanInput& input);
-  void optimizeOne(const PlanInput& input, size_t index);
+  void optimizeOne(const PlanInput& input, Worker& worker, BandCandidate& c);
+  void examine(Worker& worker, BandCandidate& c);
+  void rescue(const PlanInput& input);
+  bool keepToTheGraph(const PlanInput& input);
+  bool letPass(const PlanInput& input);
+  void timeWays(const PlanInput& input, double keep_out);
+  void timeWay(std::span<const mrpt::math::TPoint2D> way, const mrpt::math::TPoint2D& beside, double keep_out,
+               const PlanInput& input);
+  bool searchInTime(const PlanInput& input);
+  bool place(BandCandidate& c);
+  bool goalIsFree() const;
+  bool becomesClear(const PlanInput& input, const TimedBand& timed);
   void tryQuickest(const PlanInput& input, Worker& worker, BandCandidate& c);
   void judge(const PlanInput& input);
   void dropTwins();
-  std::optional<double> hrvoHeading(const PlanInput& input);
+  std::optional<mrpt::math::TPoint2D> hrvoVelocity(const PlanInput& input);
+  double angleToAdvice(const PlanInput& input, const BandCandidate& c) const;
+  mrpt::math::TTwist2D slowedByAdvice(const TrajectorySpeed& wanted) const;
   void choose(const PlanInput& input, PlanOutput& out);
   void follow(const PlanInput& input, BandCandidate& c, PlanOutput& out);
+  bool evade(const PlanInput& input, bool only_if_clear, PlanOutput& out);
   void brake(const PlanInput& input, PlanOutput& out);
   void watchOscillation(const PlanInput& input, const BandCandidate& c, PlanOutput& out);
   void explainTo(PlanOutput& out) const;
+  uint64_t classOf(SignatureReader& reader, const Band& band) const;
 
   BandPlannerParams params_;
   ObstacleView view_;
   GapGraph graph_;
+  FieldIslands islands_;
+  SpaceTimeSearch search_;
+  GridBounds bounds_;
   BandMaker maker_;
+  Evasion evasion_;
   Hrvo hrvo_;
+  std::optional<mrpt::math::TPoint2D> advice_;  ///< of the HRVO model in this plan [m/s, map axes]
   std::vector<Worker> workers_;
   std::vector<BandCandidate> pool_;
+  std::vector<TimedBand> timed_;
+  size_t timed_count_ = 0;
+  std::vector<mrpt::math::TPoint2D> bow_;
+  BandCandidate passing_;
+  double rescue_again_ = -1e9, rescue_wait_s_ = 0.25;  ///< when it is worth trying again
   std::vector<size_t> order_;
   std::vector<TrajectoryPoint> driven_;
   LocalGoal goal_;
   GoalFrame frame_;
+  double reach_m_ = 0;  ///< farthest that the view is asked
   BandProblem problem_;
   Band fresh_, checked_;
   BandEnds checked_ends_;

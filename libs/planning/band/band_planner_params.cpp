@@ -27,10 +27,17 @@ MovingView BandViewParams::movingView() const {
   return out;
 }
 
+void FootprintParams::visit(ParamVisitor& v) {
+  v.number("length_m", length_m, {0, 10}, "m", "of the rectangle; 0: the robot is a disc");
+  v.number("width_m", width_m, {0, 10}, "m", "of the rectangle");
+  v.number("ahead_m", ahead_m, {-5, 5}, "m", "of the rectangle's middle, from the middle between the wheels");
+}
+
 void SelectionParams::visit(ParamVisitor& v) {
   v.number("hysteresis", hysteresis, {0, 0.9}, "-", "share by which a class must be cheaper than the last choice");
   v.number("clearance_share", clearance_share, {0, 10}, "-", "share of the clearance cost that counts in the choice");
   v.number("delta_hrvo", delta_hrvo, {0, 1e3}, "1/rad", "weight of the angle to the HRVO direction (4.10)");
+  v.flag("hrvo_speed", hrvo_speed, "pteb, but not pteb+eteb: drive no faster than the HRVO velocity is long");
   v.number("goal_tolerance_m", goal_tolerance_m, {0.01, 5}, "m", "distance at which the goal is reached");
   v.angle("goal_tolerance_deg", goal_tolerance_rad, {0.1, 180}, "heading at which it is, where that matters");
   v.number("horizon_m", horizon_m, {1, 100}, "m", "length of a band along a global path");
@@ -44,6 +51,9 @@ void BandPlannerParams::visit(ParamVisitor& v) {
   v.section("view", "how moving obstacles are seen", [this](ParamVisitor& s) { view.visit(s); });
   v.section("selection", "choice among the classes", [this](ParamVisitor& s) { selection.visit(s); });
   v.section("check", "what must be clear before a command leaves", [this](ParamVisitor& s) { check.visit(s); });
+  v.section("evasion", "what is done when somebody comes and no band is clear",
+            [this](ParamVisitor& s) { evasion.visit(s); });
+  v.section("footprint", "a robot longer than wide", [this](ParamVisitor& s) { footprint.visit(s); });
   v.section("hrvo", "the HRVO model of pteb", [this](ParamVisitor& s) { hrvo.visit(s); });
 }
 

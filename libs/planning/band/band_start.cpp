@@ -62,25 +62,32 @@ mrpt::math::TPoint2D BandMaker::pointAt(double s) const {
   return points_[i] + (points_[i + 1] - points_[i]) * share;
 }
 
-void BandMaker::along(std::span<const mrpt::math::TPoint2D> way, const BandStart& spec, const RobotLimits& limits,
-                      Band& out) {
-  smooth(way);
-  const SpeedProfile profile(length_.back(), spec.ends.v, limits, spec.ends.goal_stops);
-  const auto headingAt = [&](double s, double near) {
-    const double h = std::max(0.1, 0.02 * length_.back());
-    const auto a = pointAt(s - h), b = pointAt(s + h);
-    return nearestAngle(std::atan2(b.y - a.y, b.x - a.x), near);
-  };
+double BandMaker::headingAt(double s, double near) const {
+  const double h = std::max(0.1, 0.02 * length_.back());
+  const auto a = pointAt(s - h), b = pointAt(s + h);
+  return nearestAngle(std::atan2(b.y - a.y, b.x - a.x), near);
+}
+
+/// The start, and a turn on the spot if the way goes off to the side or backwards.
+void BandMaker::begin(const BandStart& spec, const RobotLimits& limits, Band& out) const {
   out.clear();
   out.push_back({spec.start.x, spec.start.y, spec.start.phi, 0});
   const double off = headingAt(0, spec.start.phi) - spec.start.phi;
   if (std::abs(off) > kSpot_rad && std::abs(spec.ends.v) < 0.3) addTurn(out, off, spec.interval_s, limits);
-  const double started = out.back().t;
+}
+
+template <class Profile>
+void BandMaker::follow(const Profile& profile, const BandStart& spec, const RobotLimits& limits, Band& out) const {
+  const double started = out.back().t, back_c = std::cos(out.back().theta), back_s = std::sin(out.back().theta);
   const int n = std::clamp(static_cast<int>(std::lround(profile.duration() / spec.interval_s)), 3, spec.poses_max - 2);
   for (int k = 1; k <= n; ++k) {
     const double t = profile.duration() * k / n, s = profile.wayAt(t);
     const auto p = pointAt(s);
-    out.push_back({p.x, p.y, headingAt(s, out.back().theta), started + std::max(t, 0.02 * k)});
+    out.push_back({p.x, p.y, headingAt(std::max(s, 0.0), out.back().theta), started + std::max(t, 0.02 * k)});
+    if (s >= 0) continue;
+    out.back().x += s * back_c;
+    out.back().y += s * back_s;
+    out.back().theta = out[out.size() - 2].theta;
   }
   out.back().x = spec.goal.x;
   out.back().y = spec.goal.y;
@@ -88,6 +95,36 @@ void BandMaker::along(std::span<const mrpt::math::TPoint2D> way, const BandStart
   const double last = nearestAngle(spec.goal.phi, out.back().theta);
   if (std::abs(last - out.back().theta) > kSpot_rad) addTurn(out, last - out.back().theta, spec.interval_s, limits);
   out.back().theta = last;
+}
+
+void BandMaker::along(std::span<const mrpt::math::TPoint2D> way, const BandStart& spec, const RobotLimits& limits,
+                      Band& out) {
+  smooth(way);
+  begin(spec, limits, out);
+  follow(SpeedProfile(length_.back(), spec.ends.v, limits, spec.ends.goal_stops), spec, limits, out);
+}
+
+bool BandMaker::alongWhenClear(std::span<const mrpt::math::TPoint2D> way, const BandStart& spec, WayTiming::Query query,
+                               Band& out) {
+  constexpr double kBehind_m = 1.5;
+  constexpr int kCellsMost = 2000;
+  smooth(way);
+  begin(spec, query.limits, out);
+  const double cell = WayTiming::spacing(query.limits), c = std::cos(out.back().theta), s = std::sin(out.back().theta);
+  const int behind = query.limits.v_reverse > 0 ? static_cast<int>(kBehind_m / cell) : 0;
+  const int ahead = std::clamp(static_cast<int>(std::lround(length_.back() / cell)), 1, kCellsMost);
+  cells_.clear();
+  for (int i = -behind; i <= ahead; ++i) {
+    auto p = pointAt(i * cell);
+    if (i < 0) p = p + mrpt::math::TPoint2D(c, s) * (i * cell);
+    cells_.push_back(p);
+  }
+  query.v_start = spec.ends.v;
+  query.stops = spec.ends.goal_stops;
+  query.delay_s = out.back().t;
+  if (!timing_.search(cells_, behind, query)) return false;
+  follow(timing_, spec, query.limits, out);
+  return true;
 }
 
 }  // namespace sidestep

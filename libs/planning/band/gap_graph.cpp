@@ -21,12 +21,13 @@ void ExplorationParams::visit(ParamVisitor& v) {
   v.number("detour_share", detour_share, {0.1, 3}, "-", "reach of the graph beside the straight line, of its length");
   v.number("detour_least_m", detour_least_m, {0.5, 50}, "m", "least reach of the graph beside the straight line");
   v.number("narrow_weight", narrow_weight, {0, 1000}, "1/m^3", "cost of gaps too narrow for the wished clearance");
+  v.integer("states_max", states_max, {0, 100000}, "kept of each half second of the search in space and time");
 }
 
 const std::vector<GapPath>& GapGraph::search(const Query& query) {
   layColumns(query);
   blockStill(query);
-  blockMoving(query);
+  if (!query.still_only) blockMoving(query);
   blockField(query);
   sortBlocked();
   cutGaps();
@@ -49,8 +50,10 @@ void GapGraph::layColumns(const Query& query) {
 }
 
 void GapGraph::blockDisc(const Query& query, double u, double v, double radius, int first, int last) {
+  if (u + radius < first * width_ || u - radius > (last + 1) * width_) return;
   // start and goal themselves are never blocked: the robot stands there, or is told to
-  const double from_start = std::hypot(u, v), from_goal = std::hypot(u - query.frame.length, v);
+  const double ahead = u - query.frame.length;
+  const double from_start = std::sqrt(u * u + v * v), from_goal = std::sqrt(ahead * ahead + v * v);
   const double r = std::min({radius, 0.98 * from_start, 0.98 * from_goal});
   first = std::max(first, static_cast<int>(std::floor((u - r) / width_)));
   last = std::min(last, static_cast<int>(std::floor((u + r) / width_)));

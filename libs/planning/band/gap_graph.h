@@ -19,6 +19,8 @@ struct ExplorationParams {
   double detour_least_m = 2.5;  ///< and at least
   double narrow_weight = 12;    ///< cost of a gap too narrow for the wished clearance, 1/m^2 per metre of way
 
+  int states_max = 1000;  ///< of a step of the search in space and time
+
   void visit(ParamVisitor& v);
 };
 
@@ -39,9 +41,10 @@ class GapGraph {
   struct Query {
     GoalFrame frame;
     const ObstacleView* obstacles = nullptr;
-    double keep_out = 0.35;  ///< least distance of the robot's centre to an obstacle's edge [m]
-    double wished = 0.8;     ///< wished one [m]
-    SpeedProfile profile;    ///< when the robot gets to a column
+    double keep_out = 0.35;   ///< least distance of the robot's centre to an obstacle's edge [m]
+    double wished = 0.8;      ///< wished one [m]
+    SpeedProfile profile;     ///< when the robot gets to a column
+    bool still_only = false;  ///< as if nothing moved
   };
 
   explicit GapGraph(const ExplorationParams& params) : params_(params) {}

@@ -55,7 +55,7 @@ int SignatureReader::crossingsMoving(const ObstacleView& obstacles, const GoalFr
 }
 
 uint64_t SignatureReader::read(const Band& band, const GoalFrame& frame, const ObstacleView& obstacles,
-                               double horizon_s) {
+                               double horizon_s, std::span<const mrpt::math::TPoint2D> islands) {
   points_.clear();
   for (const auto& p : band) points_.push_back({frame.u(p.x, p.y), frame.v(p.x, p.y), p.t});
   v_low_ = v_high_ = points_.front().v;
@@ -63,18 +63,18 @@ uint64_t SignatureReader::read(const Band& band, const GoalFrame& frame, const O
     v_low_ = std::min(v_low_, p.v);
     v_high_ = std::max(v_high_, p.v);
   }
-  uint64_t sum = 0;
-  uint64_t index = 0;
+  uint64_t sum = 0, index = 0;
+  const auto enter = [&sum, &index](int n) {
+    if (n != 0) sum += factorOf(index) * static_cast<uint64_t>(static_cast<int64_t>(n));
+    ++index;
+  };
   for (const auto& o : obstacles.still()) {
     const double x = o.x + o.ex / 2, y = o.y + o.ey / 2;
-    if (const int n = crossings(frame.u(x, y), frame.v(x, y)); n != 0)
-      sum += factorOf(index) * static_cast<uint64_t>(static_cast<int64_t>(n));
-    ++index;
+    enter(crossings(frame.u(x, y), frame.v(x, y)));
   }
+  for (const auto& p : islands) enter(crossings(frame.u(p.x, p.y), frame.v(p.x, p.y)));
   const size_t movers = obstacles.movingIn(0).size();
-  for (size_t i = 0; i < movers; ++i, ++index)
-    if (const int n = crossingsMoving(obstacles, frame, i, horizon_s); n != 0)
-      sum += factorOf(index) * static_cast<uint64_t>(static_cast<int64_t>(n));
+  for (size_t i = 0; i < movers; ++i) enter(crossingsMoving(obstacles, frame, i, horizon_s));
   return sum;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "planning/band/band.h"
@@ -22,7 +23,9 @@ namespace sidestep {
 /// Computed in one pass over obstacles and poses; obstacles beside the band cost nothing more than a look.
 class SignatureReader {
  public:
-  uint64_t read(const Band& band, const GoalFrame& frame, const ObstacleView& obstacles, double horizon_s);
+  /// @param islands  one point of each obstacle of a distance field
+  uint64_t read(const Band& band, const GoalFrame& frame, const ObstacleView& obstacles, double horizon_s,
+                std::span<const mrpt::math::TPoint2D> islands = {});
 
  private:
   int crossings(double u, double v) const;

@@ -5,6 +5,7 @@
 
 #include "core/params.h"
 #include "planning/band/band.h"
+#include "planning/band/footprint.h"
 #include "planning/band/obstacle_view.h"
 #include "planning/local_planner.h"
 
@@ -17,7 +18,7 @@ struct CheckParams {
   void visit(ParamVisitor& v);
 };
 
-/// What a check says: whether the robot's disc stays clear, and if not, of what and when.
+/// What a check says: whether the robot stays clear, and if not, of what and when.
 struct CheckResult {
   bool clear = true;
   double contact_s = 0;  ///< when it would touch
@@ -28,10 +29,10 @@ struct CheckResult {
 /// Drives a band for a while from where the robot really is, then brakes on its curve, and looks whether it touches
 /// anything: what moves counts while driving, what stands until the robot does. A robot that touches something already
 /// may only get away from it.
-CheckResult checkStart(const Band& band, const BandEnds& ends, const RobotLimits& limits, const ObstacleView& obstacles,
-                       const CheckParams& params, std::vector<TrajectoryPoint>& driven);
+CheckResult checkStart(const Band& band, const BandEnds& ends, const RobotLimits& limits, const Footprint& robot,
+                       const ObstacleView& obstacles, const CheckParams& params, std::vector<TrajectoryPoint>& driven);
 
 /// Clearance of a whole band, between its poses too.
-CheckResult checkWhole(const Band& band, const RobotLimits& limits, const ObstacleView& obstacles);
+CheckResult checkWhole(const Band& band, const Footprint& robot, const ObstacleView& obstacles);
 
 }  // namespace sidestep

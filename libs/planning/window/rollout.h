@@ -11,7 +11,8 @@ struct Rollout {
   double free_s = std::numeric_limits<double>::infinity();  ///< until it touches something; infinity: it does not
   int touched = -1;                                         ///< the moving obstacle that it touches; -1: a static one
   double gap_m = std::numeric_limits<double>::infinity();   ///< to what it touches or passes nearest, as far as looked
-  bool admissible = true;                                   ///< (2.24)
+  bool stops = true;                                        ///< (2.24): the robot can stop before it touches something
+  bool admissible = true;                                   ///< that, and where it can stop nobody comes
   double total = 0;                                         ///< the weighted loss; the smallest wins
 };
 

@@ -182,4 +182,54 @@ void Surroundings::follow(std::span<const double> unit_x, std::span<const double
   }
 }
 
+/// Whether a moving obstacle that goes on as in the last step of the look-ahead comes over a place within as much time.
+bool Surroundings::isPassed(double x, double y) const {
+  const auto end = static_cast<size_t>(steps_) * static_cast<size_t>(movers_),
+             before = end - static_cast<size_t>(movers_);
+  for (size_t i = 0; i < static_cast<size_t>(movers_); ++i) {
+    const TPoint2D at(mover_x_[end + i], mover_y_[end + i]), from(mover_x_[before + i], mover_y_[before + i]);
+    const TPoint2D to = at + (at - from) * static_cast<double>(steps_);
+    const double r = mover_r_[end + i];
+    const TPoint2D d = nearestOn({at, to}, {x, y}) - TPoint2D(x, y);
+    if (d.x * d.x + d.y * d.y < r * r) return true;
+  }
+  return false;
+}
+
+bool Surroundings::canStop(std::span<const double> unit_x, std::span<const double> unit_y, const Rollout& r,
+                           double period_s, double brake) const {
+  const double braking_s = r.v / brake;
+  // Where on the arc after so many steps: as far as at speed v in `at` steps.
+  const auto place = [&](double steps) {
+    const double braked_s = std::clamp(steps * step_s_ - period_s, 0.0, braking_s);
+    const double lost_s = r.v > 0 ? 0.5 * brake * braked_s * braked_s / r.v : 0;
+    const double at = std::min((std::min(steps * step_s_, period_s + braking_s) - lost_s) / step_s_, 1.0 * steps_);
+    const size_t i = std::min(static_cast<size_t>(at), unit_x.size() - 2);
+    const double part = at - static_cast<double>(i);
+    return TPoint2D(r.v * (unit_x[i] + part * (unit_x[i + 1] - unit_x[i])),
+                    r.v * (unit_y[i] + part * (unit_y[i + 1] - unit_y[i])));
+  };
+  int next_static = 1, next_moving = 1;
+  for (int k = 1; k <= steps_; k = std::min(next_static, next_moving)) {
+    const TPoint2D p = place(k);
+    const auto after = [&](double gap, double speed) {
+      const double steps = gap / (speed * step_s_);
+      return steps < steps_ ? k + std::max(1, static_cast<int>(steps)) : steps_ + 1;
+    };
+    const double v = std::clamp(r.v - brake * (k * step_s_ - period_s), 0.0, r.v);
+    if (k == next_moving) {
+      const double gap = movingGap(k, p.x, p.y).m;
+      if (gap < 0) return false;
+      next_moving = after(gap, v + fastest_);
+    }
+    if (k == next_static) {
+      const double gap = staticGap(p.x, p.y);
+      if (gap < 0) return false;
+      next_static = after(gap, v);
+    }
+  }
+  const TPoint2D end = place(steps_);
+  return !isPassed(end.x, end.y);
+}
+
 }  // namespace sidestep

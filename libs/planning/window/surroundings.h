@@ -27,6 +27,10 @@ class Surroundings {
   /// Follows the rollout and fills `free_s`, `touched` and `gap_m`. `unit_x`, `unit_y`: the arc of that w for v = 1, at
   /// each step.
   void follow(std::span<const double> unit_x, std::span<const double> unit_y, Rollout& rollout) const;
+  /// Whether the robot, having driven the rollout for a period, could brake along its arc and then stand until the end
+  /// of the look-ahead without being touched.
+  bool canStop(std::span<const double> unit_x, std::span<const double> unit_y, const Rollout& rollout, double period_s,
+               double brake) const;
 
  private:
   struct Gap {
@@ -37,6 +41,7 @@ class Surroundings {
   void addStatic(const PlanInput& input, double margin_m);
   mrpt::math::TPoint2D local(const mrpt::math::TPoint2D& map) const;
   Gap movingGap(int k, double x, double y) const;
+  bool isPassed(double x, double y) const;
   double staticGap(double x, double y) const;
 
   int steps_ = 0, movers_ = 0;

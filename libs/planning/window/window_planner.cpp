@@ -19,6 +19,9 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
+/// So many of the best pairs are looked at for a safe place to stop; after that only the slowest ones.
+constexpr int kMostFailures = 30;
+
 struct WeightedScorer {
   double weight;
   std::unique_ptr<Scorer> scorer;
@@ -43,7 +46,7 @@ class WindowPlanner final : public LocalPlanner {
                        params_.sigmas);
     takeView(input);
     sampleWindow(input);
-    const Rollout& best = choose();
+    const Rollout& best = choose(input);
     order(input, best, out);
     if (explain_) explainRollouts(input, best, out);
   }
@@ -79,7 +82,7 @@ class WindowPlanner final : public LocalPlanner {
         const bool slowest = i == 0 && j == params_.w_samples / 2;  // stays, so that there is always one
         if (r.v + 0.5 * input.limits.track_m * std::abs(w) > input.limits.wheel_speed_max && !slowest) continue;
         surroundings_.follow(unit_x_, unit_y_, r);
-        r.admissible = admissible(input, r);
+        r.stops = r.admissible = admissible(input, r);
         for (const auto& s : scorers_) r.total += s.weight * (1 - s.scorer->score(r, view_));
         rollouts_.push_back(r);
       }
@@ -109,14 +112,37 @@ class WindowPlanner final : public LocalPlanner {
   }
 
   /// V_r (2.22) and the best of it; if it is empty, what stays free longest, and the slowest of that.
-  const Rollout& choose() {
-    const auto worse = [](const Rollout& a, const Rollout& b) {
-      if (a.admissible != b.admissible) return b.admissible;
-      if (!a.admissible && a.free_s != b.free_s) return a.free_s < b.free_s;
-      if (!a.admissible && a.v != b.v) return a.v > b.v;
-      return a.total > b.total;
-    };
-    return *std::max_element(rollouts_.begin(), rollouts_.end(), worse);
+  const Rollout& choose(const PlanInput& input) {
+    by_total_.clear();
+    double slowest = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < rollouts_.size(); ++i) {
+      if (rollouts_[i].admissible) by_total_.push_back(i);
+      slowest = std::min(slowest, rollouts_[i].v);
+    }
+    std::sort(by_total_.begin(), by_total_.end(), [this](size_t a, size_t b) {
+      return rollouts_[a].total != rollouts_[b].total ? rollouts_[a].total < rollouts_[b].total : a < b;
+    });
+    int failed = 0;
+    for (const size_t i : by_total_) {
+      Rollout& r = rollouts_[i];
+      r.admissible = leavesSafePlace(input, r, failed < kMostFailures || r.v <= slowest);
+      if (r.admissible) return r;
+      ++failed;
+    }
+    return *std::max_element(rollouts_.begin(), rollouts_.end(), [](const Rollout& a, const Rollout& b) {
+      return a.free_s != b.free_s ? a.free_s < b.free_s : a.v != b.v ? a.v > b.v : a.total > b.total;
+    });
+  }
+
+  /// That the robot can stop before it touches somebody who moves is not enough: it must also be able to stand there.
+  /// So a pair that touches something within the look-ahead is admissible only if braking after this period leaves the
+  /// robot where nobody comes; then there is such a way out in the next period too.
+  /// @param look  false: it is taken to leave none
+  bool leavesSafePlace(const PlanInput& input, const Rollout& r, bool look) {
+    if (!(r.free_s < params_.look_ahead_s)) return true;
+    if (!look) return false;
+    unitArc(r.w);
+    return surroundings_.canStop(unit_x_, unit_y_, r, input.period_s, input.limits.brake);
   }
 
   void order(const PlanInput& input, const Rollout& best, PlanOutput& out) const {
@@ -127,7 +153,8 @@ class WindowPlanner final : public LocalPlanner {
     trajectory(input, best, out.trajectory);
     if (best.admissible) return;
     out.status = PlanOutput::Status::kBraking;
-    out.reason = "no velocity from which the robot can stop in time: the one that stays free longest";
+    out.reason =
+        "no velocity from which the robot can stop in time and in a safe place: the one that stays free longest";
   }
 
   void trajectory(const PlanInput& input, const Rollout& r, std::vector<TrajectoryPoint>& out) const {
@@ -158,7 +185,8 @@ class WindowPlanner final : public LocalPlanner {
     if (r.admissible) return "costs more";
     if (!best.admissible && r.free_s == best.free_s) return "touches as early, and is faster or costs more";
     const std::string what = r.touched < 0 ? "a static obstacle" : "moving obstacle " + std::to_string(r.touched);
-    return "cannot stop before " + what + ", which it touches after " + shortestNumber(r.free_s) + " s";
+    const char* how = r.stops ? "leaves no safe place to stop before " : "cannot stop before ";
+    return how + what + ", which it touches after " + shortestNumber(r.free_s) + " s";
   }
 
   WindowParams params_;
@@ -168,6 +196,7 @@ class WindowPlanner final : public LocalPlanner {
   ScoringView view_;
   std::vector<double> unit_x_, unit_y_;
   std::vector<Rollout> rollouts_;
+  std::vector<size_t> by_total_;
 };
 
 }  // namespace
