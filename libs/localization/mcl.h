@@ -29,7 +29,7 @@ struct MclParams {
   double average_fast = 0.3;
   double recovery_share = 0.2;
   double recovery_below = 0.8;
-  double recovery_gain = 20;
+  double recovery_gain = 12;
   double recovery_pause_s = 2;
   int rivals = 32;
 
