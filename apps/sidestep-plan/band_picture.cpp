@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sidestep-plan/band_picture.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include "evaluation/gnuplot.h"
 
@@ -39,11 +41,13 @@ void BandPicture::add(const BandProblemCase& problem, const BandPlanner& planner
 }
 
 void BandPicture::write(const std::string& file) const {
-  runGnuplot(
-      "set terminal pngcairo size 1500,1200\nset output " + gnuplotQuoted(file) + "\n" + data_ +
-          "set multiplot layout 3,3\nset size ratio -1\nunset key\nset xrange [-0.8:8.8]\nset yrange [-4.8:4.8]\n" +
-          plots_ + "unset multiplot\n",
-      "the picture of the bands");
+  const int columns = panels_ <= 4 ? std::max(1, std::min(panels_, 2)) : 3, rows = (panels_ + columns - 1) / columns;
+  runGnuplot("set terminal pngcairo size " + std::to_string(500 * columns) + "," +
+                 std::to_string(400 * std::max(1, rows)) + "\nset output " + gnuplotQuoted(file) + "\n" + data_ +
+                 "set multiplot layout " + std::to_string(std::max(1, rows)) + "," + std::to_string(columns) +
+                 "\nset size ratio -1\nunset key\nset xrange [-0.8:8.8]\nset yrange [-4.8:4.8]\n" + plots_ +
+                 "unset multiplot\n",
+             "the picture of the bands");
 }
 
 }  // namespace sidestep
