@@ -54,8 +54,8 @@ TEST(StudyQuantiles, WhatIsNotFiniteIsLeftOut) {
 
 SummaryLine lineOf(const std::string& metric, double mean, double low, double high) {
   SummaryLine l;
-  l.scenario = "s";
-  l.algorithm_name = "a";
+  l.scenario.assign(1, 's');
+  l.algorithm_name.assign(1, 'a');
   l.metric = metric;
   l.summary = {20, mean, 0.1, low, high};
   return l;
