@@ -96,16 +96,22 @@ void ParticleFilter::start(const PoseBelief& belief) {
 
 // ---- prediction ----
 
+/// A constant of variance `constant_var` enters a step times `h`: adds it to the step's variance, and lets the step
+/// that is drawn tell of it. @return ParticleCloud::MotionNoise's gain
+static double learn(double& constant_var, double h, double& step_var) {
+  const double q = step_var;
+  step_var = q + constant_var * h * h;
+  if (!(step_var > 0)) return 0;
+  const double gain = constant_var * h / std::sqrt(step_var);
+  constant_var *= q / step_var;
+  return gain;
+}
+
 /// Adds what the wheels' unknown scale makes of the distance to its variance. @return ParticleCloud::MotionNoise's gain
 double ParticleFilter::learnScale(const MotionStep& step, double& distance_var) {
   if (!(params_.wheel_scale_sd > 0)) return 0;
   scale_var_ += params_.wheel_scale_walk * params_.wheel_scale_walk * step.dt_s;
-  const double q = distance_var, h = step.distance_m;
-  distance_var = q + scale_var_ * h * h;
-  if (!(distance_var > 0)) return 0;
-  const double gain = scale_var_ * h / std::sqrt(distance_var);
-  scale_var_ *= q / distance_var;
-  return gain;
+  return learn(scale_var_, step.distance_m, distance_var);
 }
 
 /// The same for the bias of the gyro, if the turn is its.
@@ -113,12 +119,7 @@ double ParticleFilter::learnBias(const MotionStep& step, double& turn_var) {
   if (!(params_.yaw_rate_bias_sd > 0)) return 0;
   bias_var_ += params_.yaw_rate_bias_walk * params_.yaw_rate_bias_walk * step.dt_s;
   if (!step.turn_from_gyro) return 0;
-  const double q = turn_var, h = step.dt_s;
-  turn_var = q + bias_var_ * h * h;
-  if (!(turn_var > 0)) return 0;
-  const double gain = bias_var_ * h / std::sqrt(turn_var);
-  bias_var_ *= q / turn_var;
-  return gain;
+  return learn(bias_var_, step.dt_s, turn_var);
 }
 
 void ParticleFilter::predict(const MotionStep& motion) {
