@@ -13,13 +13,13 @@
 #include <thread>
 
 #include "common/program.h"
-#include "evaluation/metrics_json.h"
-#include "evaluation/study_consistency.h"
-#include "evaluation/study_figures.h"
-#include "evaluation/study_quantiles.h"
-#include "evaluation/study_report.h"
-#include "evaluation/study_runs.h"
-#include "evaluation/study_summary.h"
+#include "evaluation/metrics/metrics_json.h"
+#include "evaluation/study/study_consistency.h"
+#include "evaluation/study/study_figures.h"
+#include "evaluation/study/study_quantiles.h"
+#include "evaluation/study/study_report.h"
+#include "evaluation/study/study_runs.h"
+#include "evaluation/study/study_summary.h"
 
 namespace sidestep {
 namespace {

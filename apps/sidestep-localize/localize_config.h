@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/localization_config.h"
+#include "localization/configuration.h"
 
 namespace sidestep {
 

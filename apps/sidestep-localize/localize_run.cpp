@@ -13,7 +13,7 @@
 
 #include "common/program.h"
 #include "datasets/log_reader.h"
-#include "evaluation/metrics_json.h"
+#include "evaluation/metrics/metrics_json.h"
 #include "sidestep-localize/ordered_log.h"
 #include "sidestep-localize/side_files.h"
 #include "sidestep-localize/truth_comparison.h"

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "evaluation/ground_truth.h"
-#include "evaluation/trajectory_error.h"
-#include "evaluation/trajectory_figure.h"
+#include "datasets/ground_truth.h"
+#include "evaluation/metrics/trajectory_error.h"
+#include "figures/trajectory_figure.h"
 #include "localization/localizer.h"
 #include "sidestep-localize/localize_config.h"
 

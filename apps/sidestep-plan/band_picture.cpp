@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "evaluation/gnuplot.h"
+#include "figures/gnuplot.h"
 
 namespace sidestep {
 namespace {

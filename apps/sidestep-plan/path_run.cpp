@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/program.h"
-#include "evaluation/ground_truth.h"
-#include "evaluation/path_figure.h"
+#include "datasets/ground_truth.h"
+#include "figures/path_figure.h"
 
 namespace sidestep {
 namespace {

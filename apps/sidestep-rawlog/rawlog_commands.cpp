@@ -9,7 +9,7 @@
 #include "common/program.h"
 #include "datasets/log_degrader.h"
 #include "datasets/log_writer.h"
-#include "evaluation/localization_config.h"
+#include "localization/configuration.h"
 #include "sidestep-rawlog/rawlog_report.h"
 
 namespace sidestep {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/log_writer.h"
-#include "evaluation/trajectory_error.h"
-#include "evaluation/trajectory_figure.h"
+#include "evaluation/metrics/trajectory_error.h"
+#include "figures/trajectory_figure.h"
 #include "simulation/observations.h"
 
 namespace sidestep {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/params.h"
-#include "evaluation/world_scenario.h"
+#include "evaluation/experiments/world_scenario.h"
 #include "simulation/localization_scenario.h"
 
 namespace sidestep {

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "common/program.h"
-#include "evaluation/world_figure.h"
+#include "figures/world_figure.h"
 #include "sidestep-simulate/localization_run.h"
 #include "sidestep-simulate/world_run.h"
 

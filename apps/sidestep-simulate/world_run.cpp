@@ -11,12 +11,12 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/log_writer.h"
-#include "evaluation/plan_explanation.h"
-#include "evaluation/plan_snapshots.h"
-#include "evaluation/planner_driver.h"
-#include "evaluation/timeline_figure.h"
-#include "evaluation/world_figure.h"
-#include "evaluation/world_record.h"
+#include "evaluation/experiments/plan_explanation.h"
+#include "evaluation/experiments/plan_snapshots.h"
+#include "evaluation/experiments/timeline_figure.h"
+#include "evaluation/experiments/world_record.h"
+#include "figures/world_figure.h"
+#include "navigation/planner_driver.h"
 #include "simulation/world_observations.h"
 
 namespace sidestep {

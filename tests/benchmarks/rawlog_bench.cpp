@@ -10,8 +10,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "datasets/ground_truth.h"
 #include "datasets/log_writer.h"
-#include "evaluation/ground_truth.h"
 
 namespace sidestep {
 namespace {

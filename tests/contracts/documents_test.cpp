@@ -3,7 +3,7 @@
 // What the documents say of the programs is true.
 #include <gtest/gtest.h>
 
-#include "evaluation/localization_config.h"
+#include "localization/configuration.h"
 #include "planning/band/band_planner.h"
 #include "sidestep-plan/path_config.h"
 #include "support/run_program.h"

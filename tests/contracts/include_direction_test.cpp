@@ -17,15 +17,17 @@ const std::map<std::string, Modules>& mayInclude() {
       {"core", {}},
       {"datasets", {"core"}},
       {"maps", {"core"}},
+      {"control", {"core"}},
+      {"figures", {"core", "maps"}},
       {"localization", {"core", "maps"}},
       {"perception", {"core", "maps"}},
       {"planning", {"core", "maps"}},
-      {"control", {"core"}},
       {"simulation", {"core", "maps", "control"}},
-      {"robots", {"core", "control", "simulation"}},
+      {"robots", {"core", "control"}},
       {"navigation", {"core", "datasets", "maps", "localization", "perception", "planning", "control"}},
+      {"live", {"core", "datasets", "navigation"}},
       {"evaluation",
-       {"core", "datasets", "maps", "localization", "perception", "planning", "control", "simulation", "robots",
+       {"core", "datasets", "maps", "figures", "localization", "perception", "planning", "control", "simulation",
         "navigation"}}};
   return table;
 }

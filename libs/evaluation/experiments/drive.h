@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/ground_truth.h"
+#include "evaluation/metrics/trajectory_error.h"
+#include "localization/configuration.h"
+#include "simulation/localization_scenario.h"
+
+namespace sidestep {
+
+/// A stretch of time in which signals do not arrive: theta is the IMU, xy the position fixes.
+struct SignalLoss {
+  bool theta = false, xy = false;
+  double from_s = 0, to_s = 0;  ///< after the start of the drive [s]
+
+  bool any() const { return (theta || xy) && to_s > from_s; }
+  bool covers(double time_s) const { return time_s >= from_s && time_s < to_s; }
+};
+
+/// NIS of all measurements of one kind that were accepted.
+struct KindNis {
+  std::string kind;  ///< "gps", "imu", "beacons"
+  double sum = 0;
+  double count = 0, independent = 0;
+  int dof = 0;
+};
+
+/// What a localizer made of a drive.
+struct DriveResult {
+  std::vector<PosePair> pairs;                ///< time from the start of the drive [s], in the order of time
+  std::vector<mrpt::math::TPose2D> odometry;  ///< beside each pair, from the same start
+  std::vector<mrpt::math::TPoint2D> fixes;
+  bool gave_fixes = false;  ///< a sensor of positions was used
+  bool aligned = false;     ///< laid onto the truth: NEES judges nothing
+  std::vector<KindNis> nis;
+  std::optional<double> gate_probability;  ///< LocalizeConfig::gateProbability
+};
+
+/// Localizes one seeded run of a simulated drive.
+DriveResult localizeSimulated(const LocalizationScenario& scenario, const LocalizeConfig& config,
+                              const SignalLoss& loss, uint64_t world_seed, uint64_t filter_seed);
+
+/// A recorded drive, held in memory so that it can be localized many times.
+struct RecordedDrive {
+  std::string file;
+  std::vector<LogEntry> entries;   ///< of sensors only
+  std::vector<StampedPose> truth;  ///< in the log's time
+  double start_s = 0, duration_s = 0;
+};
+
+/// @param truth_file  empty: the log's own truth
+/// @param scans       keep the laser's scans too
+/// @throws DatasetError if the log or its truth cannot be read whole.
+RecordedDrive readDrive(const std::string& log, const std::string& truth_file, const std::vector<std::string>& labels,
+                        bool scans = false);
+
+/// Localizes a recorded drive; pairs are where there is truth.
+DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& config, const SignalLoss& loss,
+                             uint64_t filter_seed);
+
+/// A true pose in the map's frame, as the configuration places the truth's.
+mrpt::math::TPose2D truthInMap(const LocalizeConfig& config, const mrpt::math::TPose2D& truth);
+
+}  // namespace sidestep

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "evaluation/experiments/world_record.h"
+
+namespace sidestep {
+
+/// The first robot's runs over time, as figures 4.6, 4.7, 4.15 and 4.20 of the dissertation show them.
+struct TimelineFigure {
+  struct Run {
+    std::string name;  ///< for the key; with one run only there is none
+    std::vector<TimelineSample> samples;
+  };
+  std::string title;
+  std::vector<Run> runs;
+};
+
+/// Draws delta_min(t) of (4.6), the collision index (4.11) with its threshold, speed and turn rate, one below the
+/// other, all runs in each.
+/// @throws Error (internal) with gnuplot's message if it cannot be run.
+void drawTimeline(const TimelineFigure& figure, const std::string& png_file);
+
+}  // namespace sidestep

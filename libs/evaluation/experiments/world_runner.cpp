@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/experiments/world_runner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+
+#include "core/data_path.h"
+#include "core/errors.h"
+#include "core/overlay_yaml.h"
+#include "core/random.h"
+#include "evaluation/experiments/timeline_figure.h"
+#include "evaluation/experiments/world_record.h"
+#include "evaluation/experiments/world_scenario.h"
+#include "evaluation/metrics/collision_index.h"
+#include "evaluation/study/study.h"
+#include "navigation/planner_driver.h"
+
+namespace sidestep {
+namespace {
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+struct ScenarioEntry {
+  std::string file, set, goals = "all";
+  // made by prepare()
+  std::vector<WorldScenario> worlds;                       ///< by algorithm
+  std::vector<std::shared_ptr<const WorldInputs>> inputs;  ///< by algorithm
+};
+
+struct AlgorithmEntry {
+  std::string robot, others, sees_robot = "unchanged", set;
+
+  void visit(ParamVisitor& v) {
+    v.text("robot", robot, "who drives the first robot; empty: as the scenario says");
+    v.section("others", "all other robots", [this](ParamVisitor& w) {
+      w.text("planner", others, "who drives them; empty: as the scenario says");
+      w.choice("sees_robot", sees_robot, {"unchanged", "true", "false"}, "whether the first robot exists for them");
+    });
+    v.overlay("set", set, "what the algorithm changes in each scenario, for example parameters of planners");
+  }
+  void apply(WorldScenario& s, const std::string& where) const {
+    if (!isBlank(set)) s.layOver(set, where);
+    for (size_t i = 0; i < s.world.robot_names.size(); ++i) {
+      RobotParams& r = s.world.robots[s.world.robot_names[i]];
+      const std::string& planner = i == 0 ? robot : others;
+      if (!planner.empty()) r.planner = planner;
+      if (i > 0 && sees_robot != "unchanged") r.sees_robot = sees_robot == "true";
+    }
+  }
+};
+
+/// What may vary along an axis.
+struct Axis {
+  const char* name;
+  void (*set)(WorldParams& p, double x);
+};
+
+RobotParams& firstRobot(WorldParams& p) { return p.robots[p.robot_names[0]]; }
+
+const Axis kAxes[] = {
+    {"people",
+     [](WorldParams& p, double x) {
+       for (const auto& name : p.people_names) p.people[name].count = std::max(1, static_cast<int>(x));
+     }},
+    {"people_speed",
+     [](WorldParams& p, double x) {
+       for (const auto& name : p.people_names) p.people[name].speed = x;
+     }},
+    {"robot_room_m", [](WorldParams& p, double x) { p.social_force.robot_room_m = x; }},
+    {"latency_s", [](WorldParams& p, double x) { firstRobot(p).drive.latency_s = x; }},
+    {"position_sd_m", [](WorldParams& p, double x) { firstRobot(p).perception.position_sd_m = x; }},
+    {"velocity_sd", [](WorldParams& p, double x) { firstRobot(p).perception.velocity_sd = x; }},
+};
+
+class WorldRunner final : public StudyRunner {
+ public:
+  explicit WorldRunner(std::string study_file) : file_(std::move(study_file)) {}
+
+  void visitScenario(size_t index, ParamVisitor& v) override {
+    if (scenarios_.size() <= index) scenarios_.resize(index + 1);
+    v.text("file", scenarios_[index].file, "a world, a YAML of sidestep-simulate; relative to the study's folder");
+    v.overlay("set", scenarios_[index].set, "what is changed in that world");
+    v.choice("goals", scenarios_[index].goals, {"all", "one"},
+             "of a first robot with several goals: all of them; or the one that the run's seed says, from the place of "
+             "the one before it (the first one from the start), facing it");
+  }
+  void visitAlgorithm(size_t index, ParamVisitor& v) override {
+    if (algorithms_.size() <= index) algorithms_.resize(index + 1);
+    algorithms_[index].visit(v);
+  }
+  std::vector<std::string> axes() const override {
+    std::vector<std::string> out;
+    for (const Axis& a : kAxes) out.emplace_back(a.name);
+    return out;
+  }
+  std::vector<std::string> metrics() const override {
+    return {"success",           "arrived",          "goals_reached",      "collision", "robot_into_person",
+            "person_into_robot", "robot_into_robot", "robot_into_wall",    "time",      "path_length",
+            "average_velocity",  "min_clearance",    "min_wall_clearance", "delta_min", "ci_max",
+            "ci_exceeded",       "ci_exceeded_time", "standing_time",      "braked"};
+  }
+  void prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
+               const std::vector<std::string>& algorithms, bool load_data) override;
+  std::vector<double> run(const StudyPlace& place) const override;
+  bool draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const override;
+  bool drawTogether(const std::vector<StudyPlace>& places, const std::vector<std::string>& names,
+                    const std::string& title, const std::string& png_file) const override;
+
+ private:
+  WorldScenario load(ScenarioEntry& s, const std::string& where) const;
+  std::shared_ptr<const WorldInputs> inputsOf(const WorldParams& p, bool load_data);
+
+  std::string file_;
+  std::vector<ScenarioEntry> scenarios_;
+  std::vector<std::string> axes_;
+  std::vector<AlgorithmEntry> algorithms_;
+  std::map<std::string, std::shared_ptr<const WorldInputs>> inputs_;  ///< by what is read
+};
+
+/// A path of a scenario so that it is found from anywhere.
+std::string fromAnywhere(const std::string& path, const std::string& scenario_file) {
+  if (path.empty() || path.find("${") != std::string::npos) return path;
+  return std::filesystem::absolute(scenarioPath(path, scenario_file)).lexically_normal().string();
+}
+
+/// The scenario's file and changes; from then on all of it stands in `set`.
+WorldScenario WorldRunner::load(ScenarioEntry& s, const std::string& where) const {
+  WorldScenario world;
+  std::string kind = "world";
+  int seed = 1;
+  const Visit file_fields = [&](ParamVisitor& v) {
+    v.choice("kind", kind, {"world"}, "what the scenario is about");
+    v.integer("seed", seed, {0, 2e9}, "not used in a study");
+    world.visit(v);
+  };
+  const std::string file = s.file.empty() ? file_ : resolvedPath(s.file, file_);
+  if (!s.file.empty()) readYaml(file, file_fields);
+  if (!isBlank(s.set)) world.layOver(s.set, file_);
+  try {
+    world.check();
+  } catch (const ConfigError& e) {
+    throw ConfigError(where + ": " + e.what());
+  }
+  world.world.map = fromAnywhere(world.world.map, file);
+  world.world.tracks = fromAnywhere(world.world.tracks, file);
+  s.file.clear();
+  s.set = plainYaml([&](ParamVisitor& v) { world.visit(v); });
+  return world;
+}
+
+std::shared_ptr<const WorldInputs> WorldRunner::inputsOf(const WorldParams& p, bool load_data) {
+  if (!load_data) return nullptr;
+  auto& known = inputs_[p.map + "\n" + p.tracks + "\n" + shortestNumber(p.tracks_from_s)];
+  if (!known) known = std::make_shared<const WorldInputs>(readWorldInputs(p, file_));
+  return known;
+}
+
+void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
+                          const std::vector<std::string>& algorithms, bool load_data) {
+  axes_ = axes;
+  for (size_t i = 0; i < scenarios_.size(); ++i) {
+    auto& s = scenarios_[i];
+    if (scenarios[i].empty()) continue;  // left out
+    const WorldScenario base = load(s, file_ + ": scenarios." + scenarios[i]);
+    for (size_t a = 0; a < algorithms_.size(); ++a) {
+      WorldScenario world = base;
+      algorithms_[a].apply(world, file_);
+      try {
+        world.check();
+      } catch (const ConfigError& e) {
+        throw ConfigError(file_ + ": algorithms." + algorithms[a] + ": " + e.what());
+      }
+      s.inputs.push_back(inputsOf(world.world, load_data));
+      s.worlds.push_back(std::move(world));
+    }
+  }
+}
+
+/// A run, with what is noted on the way.
+struct WatchedRun {
+  WatchedRun(const WorldScenario& scenario, const WorldInputs& inputs, uint64_t seed)
+      : world(scenario.world, seed, inputs, plannerDrivers(scenario.planners)), recorder(world) {
+    watchFirstRobot(world, scenario, false, [this](const PlanInput&, const PlanOutput& out) { count(out); });
+    world.run([this] {
+      recorder.note();
+      return true;
+    });
+  }
+  void count(const PlanOutput& out) {
+    ++plans;
+    if (out.status == PlanOutput::Status::kBraking || out.status == PlanOutput::Status::kNoPlan) ++braked;
+  }
+
+  World world;
+  WorldRecorder recorder;
+  size_t plans = 0, braked = 0;
+};
+
+/// Leaves the robot one of its goals.
+void keepOneGoal(RobotParams& robot, uint64_t seed) {
+  if (robot.goals.size() < 2) return;
+  const auto n = static_cast<double>(robot.goals.size());
+  const auto k = static_cast<size_t>(std::min(n * Random(seed, textHash("goal")).uniform(), n - 1));
+  if (k > 0) robot.x_m = robot.goals[k - 1][0], robot.y_m = robot.goals[k - 1][1];
+  robot.goals = {robot.goals[k]};
+  robot.yaw = std::atan2(robot.goals[0][1] - robot.y_m, robot.goals[0][0] - robot.x_m);
+}
+
+WatchedRun runOf(const ScenarioEntry& s, const std::string& axis, const StudyPlace& place) {
+  const WorldScenario& base = s.worlds[place.algorithm];
+  if (!place.x && s.goals == "all") return WatchedRun(base, *s.inputs[place.algorithm], place.world_seed);
+  WorldScenario varied = base;
+  if (s.goals == "one") keepOneGoal(firstRobot(varied.world), place.world_seed);
+  if (!place.x) return WatchedRun(varied, *s.inputs[place.algorithm], place.world_seed);
+  for (const Axis& a : kAxes)
+    if (axis == a.name) a.set(varied.world, *place.x);
+  return WatchedRun(varied, *s.inputs[place.algorithm], place.world_seed);
+}
+
+double finiteOrUndefined(double value) { return std::isfinite(value) ? value : kUndefined; }
+
+std::vector<double> WorldRunner::run(const StudyPlace& place) const {
+  const WatchedRun run = runOf(scenarios_[place.scenario], axes_[place.scenario], place);
+  const WorldSummary s = summarize(run.world);
+  const WorldRecorder& r = run.recorder;
+  const auto hits = [&](const char* kind) { return static_cast<double>(s.contacts.at(kind)); };
+  return {s.success ? 1.0 : 0.0,
+          s.arrived ? 1.0 : 0.0,
+          static_cast<double>(s.goals_reached),
+          s.collision ? 1.0 : 0.0,
+          hits("robot_into_person"),
+          hits("person_into_robot"),
+          hits("robot_into_robot"),
+          hits("robot_into_wall"),
+          s.time_s,
+          s.path_m,
+          s.average_velocity,
+          finiteOrUndefined(s.min_clearance_m),
+          finiteOrUndefined(s.min_wall_clearance_m),
+          deltaMin(s.min_clearance_m),
+          r.largestCollisionIndex(),
+          r.largestCollisionIndex() > kCollisionIndexThreshold ? 1.0 : 0.0,
+          r.timeAboveThreshold(),
+          r.timeStanding(),
+          run.plans > 0 ? static_cast<double>(run.braked) / static_cast<double>(run.plans) : kUndefined};
+}
+
+bool WorldRunner::draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const {
+  WatchedRun run = runOf(scenarios_[place.scenario], axes_[place.scenario], place);
+  run.recorder.figure().title = title;
+  drawWorld(run.recorder.figure(), png_file);
+  return true;
+}
+
+bool WorldRunner::drawTogether(const std::vector<StudyPlace>& places, const std::vector<std::string>& names,
+                               const std::string& title, const std::string& png_file) const {
+  TimelineFigure figure;
+  figure.title = title;
+  for (size_t i = 0; i < places.size(); ++i) {
+    const WatchedRun run = runOf(scenarios_[places[i].scenario], axes_[places[i].scenario], places[i]);
+    figure.runs.push_back({names[i], run.recorder.timeline()});
+  }
+  drawTimeline(figure, png_file);
+  return true;
+}
+
+}  // namespace
+
+std::unique_ptr<StudyRunner> makeWorldRunner(const std::string& study_file) {
+  return std::make_unique<WorldRunner>(study_file);
+}
+
+}  // namespace sidestep

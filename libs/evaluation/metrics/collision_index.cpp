@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/metrics/collision_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sidestep {
+
+double collisionIndex(const mrpt::math::TPoint2D& robot, std::span<const mrpt::math::TPoint2D> obstacles,
+                      double sigma_m) {
+  double largest = 0;
+  for (const auto& o : obstacles) {
+    const double dx = robot.x - o.x, dy = robot.y - o.y;
+    largest = std::max(largest, std::exp(-(dx * dx + dy * dy) / (2 * sigma_m * sigma_m)));
+  }
+  return largest;
+}
+
+}  // namespace sidestep

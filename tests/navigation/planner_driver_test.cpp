@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 the Sidestep developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "navigation/planner_driver.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/errors.h"
+#include "simulation/world.h"
+
+namespace sidestep {
+namespace {
+
+/// Goes straight on, and stops for whatever it is told of.
+class Shy final : public LocalPlanner {
+ public:
+  void plan(const PlanInput& input, PlanOutput& out) override {
+    EXPECT_DOUBLE_EQ(input.limits.v_max, 0.7);
+    EXPECT_DOUBLE_EQ(input.period_s, 0.05);
+    out.command = {input.moving.empty() ? input.limits.v_max : 0, 0, 0};
+  }
+  void reset() override {}
+};
+
+TEST(PlannerDriver, ALocalPlannerDrivesWithWhatIsPerceived) {
+  WorldParams p;
+  p.robot_names = {"robot"};
+  RobotParams& robot = p.robots["robot"];
+  robot.planner = "shy";
+  robot.goal_x_m = 20;
+  robot.limits.v_max = 0.7;
+  robot.perception.range_m = 3;
+  p.people_names = {"one"};
+  PeopleParams& one = p.people["one"];
+  one.model = "straight", one.speed = 0, one.x_m = one.goal_x_m = 6;
+  World world(p, 1, {}, [](const std::string&, const RobotLimits& limits) {
+    return makePlannerDriver(std::make_unique<Shy>(), limits);
+  });
+  world.run();
+  // It sees the person from 3 m off, at x = 3, and brakes from 0.7 m/s at 0.5 m/s^2: 0.49 m, plus up to one period.
+  EXPECT_GT(world.robots()[0].pose.x, 3.48);
+  EXPECT_LT(world.robots()[0].pose.x, 3.49 + 0.7 * 0.06);
+  EXPECT_FALSE(summarize(world).collision);
+}
+
+/// Keeps what it was told last, and stands.
+struct Told {
+  std::vector<mrpt::math::TPose2D> path;
+  std::vector<MovingObstacle> moving;
+};
+class Listener final : public LocalPlanner {
+ public:
+  explicit Listener(Told& told) : told_(told) {}
+  void plan(const PlanInput& input, PlanOutput& out) override {
+    told_.path.assign(input.path.begin(), input.path.end());
+    told_.moving.assign(input.moving.begin(), input.moving.end());
+    out.command = {};
+  }
+  void reset() override {}
+
+ private:
+  Told& told_;
+};
+
+DriverView viewAt(double time_s, const mrpt::math::TPose2D& pose, std::span<const Segment> walls,
+                  std::span<const MovingObstacle> moving) {
+  DriverView view;
+  view.time_s = time_s, view.pose = pose, view.goal = {10, 0, 0};
+  view.walls = walls, view.moving = moving, view.period_s = 0.1;
+  return view;
+}
+
+TEST(PlannerDriver, TheFilterFindsVelocitiesAndPredictsWithDoubt) {
+  Told told;
+  DriverParams params;
+  params.tracking.filter = "constant_velocity";
+  const auto driver = makePlannerDriver(std::make_unique<Listener>(told), {}, params);
+  MovingObstacle walker;
+  walker.id = 3;
+  for (int k = 0; k < 30; ++k) {
+    walker.position = {5, 0.1 * k};  // 1 m/s to the left; what is said of the velocity is not believed
+    walker.velocity = {-7, 0};
+    driver->drive(viewAt(0.1 * k, {}, {}, {&walker, 1}));
+  }
+  ASSERT_EQ(told.moving.size(), 1u);
+  EXPECT_NEAR(told.moving[0].velocity.x, 0, 0.02);
+  EXPECT_NEAR(told.moving[0].velocity.y, 1, 0.02);
+  ASSERT_GT(told.moving[0].predicted.size(), 4u);
+  EXPECT_GT(told.moving[0].predicted[4].covariance(0, 0), told.moving[0].predicted[0].covariance(0, 0));
+  // not seen for half a second it is still there, farther on
+  driver->drive(viewAt(3.4, {}, {}, {}));
+  ASSERT_EQ(told.moving.size(), 1u);
+  EXPECT_NEAR(told.moving[0].position.y, 3.4, 0.05);
+}
+
+double clearanceOf(const std::vector<mrpt::math::TPose2D>& path, const mrpt::math::TPoint2D& p) {
+  double out = 1e9;
+  for (const auto& q : path) out = std::min(out, std::hypot(q.x - p.x, q.y - p.y));
+  return out;
+}
+
+TEST(PlannerDriver, ARouteLeadsAroundWallsAndThoseWhoStandAndIsPlannedAnewForAnotherGoal) {
+  Told told;
+  DriverParams params;
+  params.path.planner = "astar";
+  const auto driver = makePlannerDriver(std::make_unique<Listener>(told), {}, params);
+  // a room with a wall across the straight way, open above y = 2
+  const std::vector<Segment> walls = {
+      {{-2, -5}, {12, -5}}, {{12, -5}, {12, 5}}, {{12, 5}, {-2, 5}}, {{-2, 5}, {-2, -5}}, {{5, -5}, {5, 2}}};
+  driver->drive(viewAt(0, {}, walls, {}));
+  ASSERT_GT(told.path.size(), 10u);
+  EXPECT_NEAR(told.path.back().x, 10, 1e-9);
+  // the wall's end is at (5, 2): 0.3 m of robot, 0.3 m of room; points are 0.5 m apart, and the map's cells 0.1 m
+  EXPECT_GT(clearanceOf(told.path, {5, 2}), 0.5);
+  double highest = -1e9;
+  for (const auto& p : told.path) highest = std::max(highest, p.y);
+  EXPECT_GT(highest, 2.4);
+  EXPECT_LT(highest, 3.5);
+
+  // somebody stands in that way, seen for three seconds; the robot stands too, and after its patience looks for another
+  MovingObstacle standing;
+  standing.position = {5, 2.7};
+  for (int k = 1; k <= 60; ++k) driver->drive(viewAt(0.1 * k, {}, walls, {&standing, 1}));
+  EXPECT_GT(clearanceOf(told.path, standing.position), 0.75);
+
+  DriverView other = viewAt(6.1, {}, walls, {});
+  other.goal = {0, 4, 0};
+  driver->drive(other);
+  EXPECT_NEAR(told.path.back().y, 4, 1e-9);
+  EXPECT_LT(told.path.size(), 12u);
+}
+
+TEST(PlannerDriver, WithoutWallsThereIsNoPath) {
+  Told told;
+  DriverParams params;
+  params.path.planner = "astar";
+  makePlannerDriver(std::make_unique<Listener>(told), {}, params)->drive(viewAt(0, {}, {}, {}));
+  EXPECT_TRUE(told.path.empty());
+}
+
+/// A robot goes 12 m on an empty plane; how long it takes.
+double timeFor12m(const std::string& planner, double lag_s, double latency_s) {
+  WorldParams p;
+  p.robot_names = {"robot"};
+  RobotParams& robot = p.robots["robot"];
+  robot.planner = planner;
+  robot.goal_x_m = 12;
+  robot.drive.lag_s = lag_s;
+  robot.drive.latency_s = latency_s;
+  World world(p, 1, {}, plannerDrivers({}));
+  world.run();
+  EXPECT_TRUE(world.robots()[0].arrived) << planner;
+  return world.time();
+}
+
+TEST(PlannerDriver, ABaseThatIsBehindItsOrdersIsDrivenAboutAsFast) {
+  // Orders that are bounded by how the base moves now would let it speed up by a fraction of what it can only: each
+  // period it is asked for a bit more than it has, and gives a part of that.
+  for (const std::string planner : {"dwa", "edwa", "hrvo"}) {
+    const double prompt = timeFor12m(planner, 0, 0);
+    EXPECT_LT(timeFor12m(planner, 0.15, 0), prompt + 0.6) << planner;
+    EXPECT_LT(timeFor12m(planner, 0, 0.1), prompt + 0.6) << planner;
+    EXPECT_LT(timeFor12m(planner, 0.15, 0.1), prompt + 0.8) << planner;
+  }
+}
+
+TEST(PlannerDriver, OtherNamesAreTheSimpleDriversOrErrors) {
+  const auto factory = plannerDrivers({});
+  EXPECT_NE(factory("stand", {}), nullptr);
+  for (const auto& name : localPlannerNames()) EXPECT_NE(factory(name, {}), nullptr);
+  EXPECT_THROW(factory("nobody", {}), ConfigError);
+}
+
+}  // namespace
+}  // namespace sidestep
