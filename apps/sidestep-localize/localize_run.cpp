@@ -86,10 +86,10 @@ class Run {
     r.to_s = o.to_s;
     return r;
   }
-  void read(LogReader& reader, const char* what, const std::function<void(const LogEntry&)>& handle);
+  void read(LogReader& reader, const char* what, const std::function<void(const Reading&)>& handle);
   void filter();
   void smooth();
-  void record(const LogEntry& e);
+  void record(const Reading& e);
   void take();
   void tell(const Estimate& e);
   Alignment alignment() const;
@@ -123,7 +123,7 @@ void Run::warn(const std::string& line) {
   std::fprintf(stderr, "sidestep-localize: %s\n", line.c_str());
 }
 
-void Run::record(const LogEntry& e) {
+void Run::record(const Reading& e) {
   if (first_s_ == 0) first_s_ = e.time_s;
   last_s_ = e.time_s;
   if (e.kind == SensorKind::kEstimate) return;  // a log of ours, localized again: the new estimate replaces the old
@@ -151,7 +151,7 @@ void Run::take() {
   innovations_.take(localizer_);
 }
 
-void Run::read(LogReader& reader, const char* what, const std::function<void(const LogEntry&)>& handle) {
+void Run::read(LogReader& reader, const char* what, const std::function<void(const Reading&)>& handle) {
   ProgressBar bar(what, options_.quiet);
   uint64_t count = 0;
   while (!interrupted()) {
@@ -165,7 +165,7 @@ void Run::read(LogReader& reader, const char* what, const std::function<void(con
 
 /// Estimates go out as they come.
 void Run::filter() {
-  read(reader_, "localizing", [this](const LogEntry& e) {
+  read(reader_, "localizing", [this](const Reading& e) {
     record(e);
     feed_.feed(e);
     take();
@@ -176,7 +176,7 @@ void Run::filter() {
 
 /// The log is read twice: once for the estimates, which wait for its end, once to write it with them.
 void Run::smooth() {
-  read(reader_, "localizing", [this](const LogEntry& e) {
+  read(reader_, "localizing", [this](const Reading& e) {
     feed_.feed(e);
     innovations_.take(localizer_);
   });
@@ -185,7 +185,7 @@ void Run::smooth() {
   for (const auto& p : localizer_.takeFixes()) figure_.fixes.add(p.x, p.y);
   auto next = estimates.begin();
   LogReader again(options_.log, readerOptions(options_, config_));
-  read(again, "writing", [&](const LogEntry& e) {
+  read(again, "writing", [&](const Reading& e) {
     for (; next != estimates.end() && next->time_s < e.time_s; ++next) tell(*next);
     record(e);
   });

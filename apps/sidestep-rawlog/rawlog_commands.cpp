@@ -74,7 +74,7 @@ ExitCode degradeLog(const RawlogOptions& options) {
   checkOutput(options);
   LogWriter writer(options.output, commandLine() + "\n" + writeYaml([&](ParamVisitor& v) { script.visit(v); }));
   DegradeReport report;
-  LogDegrader degrader(script, [&](const LogEntry& entry) {
+  LogDegrader degrader(script, [&](const Reading& entry) {
     writer.write(*entry.observation);
     ++report.written;
   });

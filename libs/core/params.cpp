@@ -42,7 +42,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& glu
   return out;
 }
 
-std::string quoted(const std::string& s) {
+std::string inQuotes(const std::string& s) {
   std::string out = "\"";
   for (char c : s) {
     if (c == '"' || c == '\\') out += '\\';
@@ -70,10 +70,10 @@ class YamlWriter final : public ParamVisitor {
               const std::string& m) override {
     line(key, v, note(m, "", joined(words, " | ")));
   }
-  void text(const std::string& key, std::string& v, const std::string& m) override { line(key, quoted(v), m); }
+  void text(const std::string& key, std::string& v, const std::string& m) override { line(key, inQuotes(v), m); }
   void texts(const std::string& key, std::vector<std::string>& v, const std::string& m) override {
     std::vector<std::string> q;
-    for (const auto& s : v) q.push_back(quoted(s));
+    for (const auto& s : v) q.push_back(inQuotes(s));
     line(key, std::string("[").append(joined(q, ", ")).append("]"), m);
   }
   void table(const std::string& key, const std::vector<std::string>& columns, Table& rows,

@@ -45,14 +45,6 @@ bool isPose(const mrpt::obs::CObservation& observation) {
 
 }  // namespace
 
-const std::vector<std::string>& kindWords() {
-  static const std::vector<std::string> words{"odometry", "imu",  "gps",          "beacons",  "landmarks",
-                                              "laser",    "rgbd", "ground_truth", "estimate", "other"};
-  return words;
-}
-
-std::string word(SensorKind kind) { return kindWords()[static_cast<size_t>(kind)]; }
-
 KindRules::KindRules(const std::map<std::string, std::string>& labels) {
   for (const auto& [text, label] : labels) named_[kindOf(text)] = label;
 }

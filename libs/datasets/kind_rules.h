@@ -5,12 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "datasets/log_entry.h"
+#include "core/reading.h"
 
 namespace sidestep {
-
-/// All kinds' words, in the order of SensorKind.
-const std::vector<std::string>& kindWords();
 
 /// Says what each label of a log is for. Without an option, one label a kind serves: the one that is the kind's word,
 /// else the first seen; other labels of the class are kOther.

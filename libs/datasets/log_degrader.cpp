@@ -33,14 +33,14 @@ class Event {
 
   const DegradeEvent& params() const { return event_; }
   const LogDegrader::EventCount& count() const { return count_; }
-  bool concerns(const LogEntry& entry) const { return event_.label == entry.label || event_.label == word(entry.kind); }
+  bool concerns(const Reading& entry) const { return event_.label == entry.label || event_.label == word(entry.kind); }
   bool jumps() const { return event_.action == "jump"; }
   /// By how much later stamps have moved back; within the cut time stands still.
   double shift_s(double after_s) const {
     return jumps() ? std::max(0.0, std::min(after_s, event_.to_s) - event_.from_s) : 0;
   }
   /// Counts what is cut out, as met and hit.
-  bool jump(double first_s, double logged_s, LogEntry& entry) {
+  bool jump(double first_s, double logged_s, Reading& entry) {
     if (!jump_) jump_.emplace(first_s + event_.from_s, first_s + event_.to_s);
     if (jump_->apply(logged_s, entry)) return true;
     ++count_.met, ++count_.hit;
@@ -49,7 +49,7 @@ class Event {
   void leave() { held_.clear(); }  ///< freezing begins anew the next time
 
   /// @return false if the entry is lost.
-  bool apply(LogEntry& entry) {
+  bool apply(Reading& entry) {
     ++count_.met;
     const uint64_t before = count_.hit++;  // unless the action says that it let this one pass
     if (event_.action == "drop") return random_.uniform() >= event_.probability ? passed(before) : drop(entry, before);
@@ -68,7 +68,7 @@ class Event {
   }
   bool wants(const char* component) const { return event_.components == "all" || event_.components == component; }
 
-  bool drop(LogEntry& entry, uint64_t before) {
+  bool drop(Reading& entry, uint64_t before) {
     if (event_.components == "all") return false;
     const PlanarReading had = readPlanar(*entry.observation);
     requirePart(had, entry);
@@ -84,14 +84,14 @@ class Event {
     return true;
   }
 
-  bool delay(LogEntry& entry) {
+  bool delay(Reading& entry) {
     entry.observation = copyOf(*entry.observation);
     entry.time_s += event_.delay_s;
     entry.observation->timestamp = mrpt::Clock::fromDouble(entry.time_s);
     return true;
   }
 
-  bool freeze(LogEntry& entry, uint64_t before) {
+  bool freeze(Reading& entry, uint64_t before) {
     auto& held = held_[entry.label];
     if (!held) {
       held = entry.observation;
@@ -112,7 +112,7 @@ class Event {
   }
 
   /// bias, spike, noise: something is added.
-  bool change(LogEntry& entry) {
+  bool change(Reading& entry) {
     PlanarReading now = readPlanar(*entry.observation);
     requirePart(now, entry);
     const double xy_sd = addedSd(event_.sd_m), direction = random_.uniform(-M_PI, M_PI);
@@ -147,7 +147,7 @@ class Event {
   /// What makes noise of `sd` `noise_scale` times as large: variances add up.
   double addedSd(double sd) const { return sd * std::sqrt(event_.noise_scale * event_.noise_scale - 1); }
 
-  void requirePart(const PlanarReading& reading, const LogEntry& entry) const {
+  void requirePart(const PlanarReading& reading, const Reading& entry) const {
     const bool whole = event_.components == "all";
     const bool there = whole ? reading.any() : true;
     if (there && (whole || knows(*entry.observation, reading))) return;
@@ -183,11 +183,11 @@ struct LogDegrader::Impl {
   DegradeScript script;
   Sink sink;
   std::vector<Event> events;
-  std::multimap<double, LogEntry> delayed;
+  std::multimap<double, Reading> delayed;
   std::optional<double> first_s;
   std::optional<mrpt::math::TPose2D> truth, odometry;
 
-  void track(const LogEntry& entry) {
+  void track(const Reading& entry) {
     if (entry.kind != SensorKind::kGroundTruth && entry.kind != SensorKind::kOdometry) return;
     const PlanarReading r = readPlanar(*entry.observation);
     const mrpt::math::TPose2D pose(r.x, r.y, r.theta);
@@ -216,14 +216,14 @@ LogDegrader::LogDegrader(const DegradeScript& script, Sink sink)
 
 LogDegrader::~LogDegrader() = default;
 
-void LogDegrader::push(const LogEntry& given) {
+void LogDegrader::push(const Reading& given) {
   if (!impl_->first_s) impl_->first_s = given.time_s;
   const double first_s = *impl_->first_s, after_s = given.time_s - first_s;
   double now_s = given.time_s;  // as stamped once what is cut out is gone
   for (const Event& event : impl_->events) now_s -= event.shift_s(after_s);
   impl_->release(now_s);
   impl_->track(given);
-  LogEntry entry = given;
+  Reading entry = given;
   for (Event& event : impl_->events) {
     if (event.jumps()) {
       if (!event.jump(first_s, given.time_s, entry)) return;

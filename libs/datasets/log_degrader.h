@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/reading.h"
 #include "datasets/degrade_script.h"
-#include "datasets/log_entry.h"
 
 namespace sidestep {
 
@@ -15,14 +15,14 @@ namespace sidestep {
 /// its own, so that adding one leaves the others as they were.
 class LogDegrader {
  public:
-  using Sink = std::function<void(const LogEntry&)>;
+  using Sink = std::function<void(const Reading&)>;
   /// @throws ConfigError as DegradeScript::check.
   LogDegrader(const DegradeScript& script, Sink sink);
   ~LogDegrader();
 
   /// Entries in time order; the sink gets them in time order too, delayed ones later.
   /// @throws ConfigError if an event wants of a class of observations what that does not hold.
-  void push(const LogEntry& entry);
+  void push(const Reading& entry);
   /// Gives out what is still delayed.
   void finish();
 

@@ -20,7 +20,7 @@ struct Tally {
   LogHistogram periods;
 };
 
-void add(Tally& tally, const LogEntry& entry) {
+void add(Tally& tally, const Reading& entry) {
   LabelHealth& h = tally.health;
   h.kind = entry.kind;
   if (h.count++ == 0) {

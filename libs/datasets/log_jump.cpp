@@ -8,7 +8,7 @@
 
 namespace sidestep {
 
-bool LogJump::apply(double logged_s, LogEntry& entry) {
+bool LogJump::apply(double logged_s, Reading& entry) {
   if (logged_s >= from_s_ && logged_s < to_s_) return false;
   const bool after = logged_s >= to_s_;
   if (!after && entry.kind != SensorKind::kOdometry) return true;
@@ -21,7 +21,7 @@ bool LogJump::apply(double logged_s, LogEntry& entry) {
   return true;
 }
 
-void LogJump::carry(LogEntry& entry, bool after) {
+void LogJump::carry(Reading& entry, bool after) {
   auto* o = dynamic_cast<mrpt::obs::CObservationOdometry*>(entry.observation.get());
   if (o == nullptr) return;
   Wheels& w = wheels_[entry.label];

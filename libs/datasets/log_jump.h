@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "datasets/log_entry.h"
+#include "core/reading.h"
 
 namespace sidestep {
 
@@ -20,7 +20,7 @@ class LogJump {
   LogJump(double from_s, double to_s) : from_s_(from_s), to_s_(to_s) {}
   /// To be asked for each entry in order. @param logged_s  its time in the log, before any change
   /// @return false if the entry is cut out; one from after the cut is changed, which copies its observation
-  bool apply(double logged_s, LogEntry& entry);
+  bool apply(double logged_s, Reading& entry);
 
  private:
   struct Wheels {
@@ -28,7 +28,7 @@ class LogJump {
     int64_t last_left = 0, last_right = 0, add_left = 0, add_right = 0;
     bool seen = false, anchored = false;
   };
-  void carry(LogEntry& entry, bool after);
+  void carry(Reading& entry, bool after);
 
   double from_s_, to_s_;
   std::map<std::string, Wheels> wheels_;  // by label

@@ -27,7 +27,7 @@ struct LogReader::Impl {
         rules(options.labels),
         stream(name, {options.memory_limit_bytes, options.seconds_per_entry}),
         sorted(options.reorder_window_s,
-               [this](const LogEntry& entry, const char* reason) { count(entry.label, reason); }) {}
+               [this](const Reading& entry, const char* reason) { count(entry.label, reason); }) {}
 
   std::string file;
   LogReaderOptions options;
@@ -57,7 +57,7 @@ struct LogReader::Impl {
   }
 
   void take(const std::shared_ptr<mrpt::obs::CObservation>& observation, size_t bytes) {
-    LogEntry entry{stampSeconds(*observation), SensorKind::kOther, "", observation};
+    Reading entry{stampSeconds(*observation), SensorKind::kOther, "", observation};
     entry.kind = rules.classify(*observation, entry.label);
     std::string reason = screenStamp(entry.time_s, now_s);
     if (reason.empty()) reason = screen(*observation, [&](const std::string& why) { count(entry.label, why); });
@@ -92,7 +92,7 @@ struct LogReader::Impl {
            stream.failure() + "; what came before is kept";
   }
 
-  bool inWindow(const LogEntry& entry) {
+  bool inWindow(const Reading& entry) {
     if (std::isnan(first_s)) first_s = entry.time_s;
     const double t = entry.time_s - first_s;
     return t >= options.from_s && t <= options.to_s;
@@ -104,7 +104,7 @@ LogReader::LogReader(const std::string& file, LogReaderOptions options)
 
 LogReader::~LogReader() = default;
 
-std::optional<LogEntry> LogReader::next() {
+std::optional<Reading> LogReader::next() {
   for (;;) {
     if (auto entry = impl_->sorted.pop()) {
       if (impl_->inWindow(*entry)) return entry;

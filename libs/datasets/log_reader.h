@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "datasets/log_entry.h"
+#include "core/reading.h"
 
 namespace sidestep {
 
@@ -46,7 +46,7 @@ class LogReader {
   LogReader& operator=(const LogReader&) = delete;
 
   /// The next observation, or nothing at the end, clean or not (see `end()`).
-  std::optional<LogEntry> next();
+  std::optional<Reading> next();
 
   const LogEnd& end() const;
   /// label -> reason -> count of what was screened out; past a thousand labels, the rest together as "(more)".
@@ -65,7 +65,5 @@ class LogReader {
 };
 
 /// The word of a kind, as labels and options spell it: "odometry", "imu", "gps", "beacons", "landmarks", "laser",
-/// "rgbd", "ground_truth", "estimate", "other".
-std::string word(SensorKind kind);
 
 }  // namespace sidestep

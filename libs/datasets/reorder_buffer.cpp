@@ -14,7 +14,7 @@ constexpr size_t kMostBytes = 256u << 20;
 constexpr double kAlways = std::numeric_limits<double>::infinity();
 }  // namespace
 
-void ReorderBuffer::push(LogEntry entry, size_t bytes) {
+void ReorderBuffer::push(Reading entry, size_t bytes) {
   Held held{std::move(entry), arrivals_++, bytes};
   if (any_ && held.entry.time_s > newest_s_ + kJump_s) {
     ahead_.push_back(std::move(held));
@@ -63,9 +63,9 @@ void ReorderBuffer::finish() {
   release(kAlways);
 }
 
-std::optional<LogEntry> ReorderBuffer::pop() {
+std::optional<Reading> ReorderBuffer::pop() {
   if (ready_.empty()) return {};
-  LogEntry entry = std::move(ready_.front());
+  Reading entry = std::move(ready_.front());
   ready_.pop_front();
   return entry;
 }

@@ -8,7 +8,7 @@
 #include <queue>
 #include <vector>
 
-#include "datasets/log_entry.h"
+#include "core/reading.h"
 
 namespace sidestep {
 
@@ -18,18 +18,18 @@ namespace sidestep {
 /// make the rest of the log look late. Bounded in entries and bytes: when full, the oldest leaves early.
 class ReorderBuffer {
  public:
-  using Refuse = std::function<void(const LogEntry&, const char* reason)>;
+  using Refuse = std::function<void(const Reading&, const char* reason)>;
   /// @param refuse is told of "backward stamp" (earlier than what has left) and "stray stamp".
   ReorderBuffer(double window_s, Refuse refuse) : window_s_(window_s), refuse_(std::move(refuse)) {}
 
-  void push(LogEntry entry, size_t bytes);
+  void push(Reading entry, size_t bytes);
   /// No more will come.
   void finish();
-  std::optional<LogEntry> pop();
+  std::optional<Reading> pop();
 
  private:
   struct Held {
-    LogEntry entry;
+    Reading entry;
     uint64_t index;
     size_t bytes;
   };
@@ -48,7 +48,7 @@ class ReorderBuffer {
   Refuse refuse_;
   std::priority_queue<Held, std::vector<Held>, Later> held_;
   std::vector<Held> ahead_;  ///< more than a minute ahead, not yet believed
-  std::deque<LogEntry> ready_;
+  std::deque<Reading> ready_;
   size_t held_bytes_ = 0;
   uint64_t arrivals_ = 0;
   bool any_ = false;

@@ -93,14 +93,14 @@ std::unique_ptr<PoseFilter> makeFilter(const LocalizeConfig& config, uint64_t se
   return makeEkf(config.ekf);
 }
 
-int LocalizationFeed::streamOf(const LogEntry& e) {
+int LocalizationFeed::streamOf(const Reading& e) {
   const auto it = streams_.find(e.label);
   if (it != streams_.end()) return it->second;
   kinds_[e.label] = e.kind;
   return streams_[e.label] = localizer_.addStream(e.label);
 }
 
-void LocalizationFeed::feed(const LogEntry& e) {
+void LocalizationFeed::feed(const Reading& e) {
   using namespace mrpt::obs;
   if (!config_.uses(word(e.kind))) return;
   if (e.kind == SensorKind::kOdometry) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/params.h"
-#include "datasets/log_entry.h"
+#include "core/reading.h"
 #include "localization/ekf.h"
 #include "localization/localizer.h"
 #include "localization/mcl.h"
@@ -54,12 +54,12 @@ class LocalizationFeed {
  public:
   LocalizationFeed(const LocalizeConfig& config, Localizer& localizer) : config_(config), localizer_(localizer) {}
   /// Observations of sensors that are not used are left out.
-  void feed(const LogEntry& e);
+  void feed(const Reading& e);
   /// Kinds by the labels that were fed.
   const std::map<std::string, SensorKind>& kinds() const { return kinds_; }
 
  private:
-  int streamOf(const LogEntry& e);
+  int streamOf(const Reading& e);
 
   const LocalizeConfig& config_;
   Localizer& localizer_;

@@ -68,7 +68,7 @@ TEST_F(LogDamageTest, NothingThatIsNotFiniteComesOutOfFlippedPlainLogs) {
   for (size_t i = 0; i < whole.size(); i += 2) {
     std::string flipped = whole;
     flipped[i] = static_cast<char>(flipped[i] ^ 0x7f);
-    for (const LogEntry& entry : read(flipped).entries) {
+    for (const Reading& entry : read(flipped).entries) {
       const auto* o = dynamic_cast<const mrpt::obs::CObservationOdometry*>(entry.observation.get());
       EXPECT_TRUE(o == nullptr || std::isfinite(o->odometry.x() + o->odometry.y() + o->odometry.phi())) << i;
     }

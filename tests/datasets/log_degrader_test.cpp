@@ -15,13 +15,13 @@ namespace {
 
 using worlds::kStart_s;
 
-LogEntry entryOf(SensorKind kind, std::shared_ptr<mrpt::obs::CObservation> o) {
+Reading entryOf(SensorKind kind, std::shared_ptr<mrpt::obs::CObservation> o) {
   return {mrpt::Clock::toDouble(o->timestamp), kind, o->sensorLabel, o};
 }
 
 /// Each second odometry at x = t and a truth like it; half a second later heading 0.1 t with yaw rate 0.5, and a fix.
-std::vector<LogEntry> world(int seconds) {
-  std::vector<LogEntry> out;
+std::vector<Reading> world(int seconds) {
+  std::vector<Reading> out;
   for (int t = 0; t < seconds; ++t) {
     out.push_back(entryOf(SensorKind::kOdometry,
                           std::make_shared<mrpt::obs::CObservationOdometry>(worlds::odometry(kStart_s + t, t, 1))));
@@ -38,34 +38,34 @@ std::vector<LogEntry> world(int seconds) {
 }
 
 struct Degraded {
-  std::vector<LogEntry> entries;
+  std::vector<Reading> entries;
   std::vector<LogDegrader::EventCount> counts;
-  std::vector<LogEntry> of(SensorKind kind) const {
-    std::vector<LogEntry> out;
+  std::vector<Reading> of(SensorKind kind) const {
+    std::vector<Reading> out;
     for (const auto& e : entries)
       if (e.kind == kind) out.push_back(e);
     return out;
   }
 };
 
-Degraded degraded(const std::string& yaml, const std::vector<LogEntry>& in) {
+Degraded degraded(const std::string& yaml, const std::vector<Reading>& in) {
   DegradeScript script;
   readYamlText(yaml, "script.yaml", [&](ParamVisitor& v) { script.visit(v); });
   Degraded out;
-  LogDegrader degrader(script, [&](const LogEntry& e) { out.entries.push_back(e); });
+  LogDegrader degrader(script, [&](const Reading& e) { out.entries.push_back(e); });
   for (const auto& e : in) degrader.push(e);
   degrader.finish();
   out.counts = degrader.counts();
   return out;
 }
 
-std::vector<double> seconds(const std::vector<LogEntry>& entries) {
+std::vector<double> seconds(const std::vector<Reading>& entries) {
   std::vector<double> out;
   for (const auto& e : entries) out.push_back(std::round((e.time_s - kStart_s) * 1000) / 1000);
   return out;
 }
 
-PlanarReading planar(const LogEntry& e) { return readPlanar(*e.observation); }
+PlanarReading planar(const Reading& e) { return readPlanar(*e.observation); }
 
 TEST(LogDegrader, DropsWithinItsWindowAndNothingElse) {
   const auto out = degraded("events: {tunnel: {label: gps, from_s: 2, to_s: 4.5}}", world(6));

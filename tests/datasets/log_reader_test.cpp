@@ -81,8 +81,8 @@ TEST_F(LogReaderTest, IncrementsOfActionsAddUpToOdometryAtTheStampOfTheirFrame) 
   const ReadLog log =
       read(frame(kStart_s), action(kStart_s + 0.5, 2), frame(kStart_s + 1), action(0, 3), frame(kStart_s + 2));
   ASSERT_EQ(log.entries.size(), 8u);
-  std::vector<const LogEntry*> odometry;
-  for (const LogEntry& e : log.entries)
+  std::vector<const Reading*> odometry;
+  for (const Reading& e : log.entries)
     if (e.kind == SensorKind::kOdometry) odometry.push_back(&e);
   ASSERT_EQ(odometry.size(), 2u);
   EXPECT_NEAR(odometry[0]->time_s, kStart_s + 1, 1e-6);
@@ -115,7 +115,7 @@ TEST_F(LogReaderTest, OneDamagedIncrementDoesNotSpoilTheRest) {
   const ReadLog log =
       read(action(0, 1), frame(kStart_s), action(0, kNan), frame(kStart_s + 1), action(0, 1), frame(kStart_s + 2));
   double x = 0;
-  for (const LogEntry& e : log.entries)
+  for (const Reading& e : log.entries)
     if (const auto* o = dynamic_cast<const mrpt::obs::CObservationOdometry*>(e.observation.get())) x = o->odometry.x();
   EXPECT_DOUBLE_EQ(x, 2);
 }

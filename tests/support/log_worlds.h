@@ -122,7 +122,7 @@ std::string plainLog(const Objects&... objects) {
 }
 
 struct ReadLog {
-  std::vector<LogEntry> entries;
+  std::vector<Reading> entries;
   LogEnd end;
   std::map<std::string, std::map<std::string, uint64_t>> refused;
 };

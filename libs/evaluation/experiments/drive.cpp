@@ -53,7 +53,7 @@ void takeNis(const Localizer& localizer, const LocalizeConfig& config, const Kin
   }
 }
 
-bool isLost(const LogEntry& e, double time_s, const SignalLoss& loss) {
+bool isLost(const Reading& e, double time_s, const SignalLoss& loss) {
   if (!loss.any() || !loss.covers(time_s)) return false;
   if (e.kind == SensorKind::kImu) return loss.theta;
   return loss.xy && (e.kind == SensorKind::kGps || e.kind == SensorKind::kBeacons);

@@ -47,7 +47,7 @@ DriveResult localizeSimulated(const LocalizationScenario& scenario, const Locali
 /// A recorded drive, held in memory so that it can be localized many times.
 struct RecordedDrive {
   std::string file;
-  std::vector<LogEntry> entries;   ///< of sensors only
+  std::vector<Reading> entries;    ///< of sensors only
   std::vector<StampedPose> truth;  ///< in the log's time
   double start_s = 0, duration_s = 0;
 };

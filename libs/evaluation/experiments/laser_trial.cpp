@@ -54,8 +54,8 @@ void splice(RecordedDrive& drive, double from_s, double to_s) {
   event.action = "jump";
   event.from_s = from_s - drive.entries.front().time_s;
   event.to_s = to_s - drive.entries.front().time_s;
-  std::vector<LogEntry> spliced;
-  LogDegrader degrader(script, [&](const LogEntry& e) { spliced.push_back(e); });
+  std::vector<Reading> spliced;
+  LogDegrader degrader(script, [&](const Reading& e) { spliced.push_back(e); });
   for (const auto& e : drive.entries) degrader.push(e);
   degrader.finish();
   drive.entries = std::move(spliced);

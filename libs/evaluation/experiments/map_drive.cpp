@@ -93,7 +93,7 @@ class Itinerary {
   std::vector<TPose2D> way_;  // the next last
 };
 
-LogEntry asScan(double time_s, const LaserScanner& scanner) {
+Reading asScan(double time_s, const LaserScanner& scanner) {
   const LaserParams& p = scanner.params();
   auto o = std::make_shared<mrpt::obs::CObservation2DRangeScan>();
   o->sensorLabel = "laser";
@@ -111,7 +111,7 @@ LogEntry asScan(double time_s, const LaserScanner& scanner) {
   return {time_s, SensorKind::kLaser, "laser", o};
 }
 
-LogEntry asOdometry(double time_s, const TPose2D& pose) {
+Reading asOdometry(double time_s, const TPose2D& pose) {
   auto o = std::make_shared<mrpt::obs::CObservationOdometry>();
   o->sensorLabel = "odometry";
   o->timestamp = mrpt::Clock::fromDouble(time_s);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A text as one cell.
-std::string quoted(const std::string& text) {
+std::string inQuotes(const std::string& text) {
   std::string out;
   if (text.empty()) return out;
   out += '"';
@@ -71,7 +71,7 @@ std::string PlanExplanation::csv() const {
       out += ',';
     }
     (out += cell(row.total)) += ',';
-    (out += quoted(row.why)) += '\n';
+    (out += inQuotes(row.why)) += '\n';
   }
   return out;
 }

@@ -21,7 +21,7 @@ using mrpt::math::TPose2D;
 
 double apart(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-TPose2D odometryOf(const LogEntry& e) {
+TPose2D odometryOf(const Reading& e) {
   return dynamic_cast<const mrpt::obs::CObservationOdometry&>(*e.observation).odometry.asTPose();
 }
 
