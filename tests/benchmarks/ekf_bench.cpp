@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmark/benchmark.h>
 
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
 #include "localization/localizer.h"
 #include "support/readings.h"
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
 #include "support/readings.h"
 
 namespace sidestep {

@@ -8,9 +8,9 @@
 #include <random>
 
 #include "core/errors.h"
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
 #include "localization/localizer.h"
-#include "localization/particle_filter.h"
+#include "localization/filters/particle_filter.h"
 #include "support/measurements.h"
 #include "support/readings.h"
 

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "evaluation/experiments/drive.h"
 #include "evaluation/metrics/drive_metrics.h"
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
 
 namespace sidestep {
 namespace {
