@@ -8,8 +8,8 @@
 
 #include "core/errors.h"
 #include "localization/pose_filter.h"
-#include "localization/sensors/sensors.h"
 #include "localization/sensors/odometry.h"
+#include "localization/sensors/sensors.h"
 
 namespace sidestep {
 namespace {
@@ -110,8 +110,7 @@ Localizer makeLocalizer(const LocalizeConfig& config, uint64_t seed) {
 }
 
 bool wasUsed(const std::vector<SensorUse>& sensors, SensorKind kind) {
-  return std::any_of(sensors.begin(), sensors.end(),
-                     [&](const SensorUse& s) { return s.kind == kind && s.used > 0; });
+  return std::any_of(sensors.begin(), sensors.end(), [&](const SensorUse& s) { return s.kind == kind && s.used > 0; });
 }
 
 std::string usedLabels(const std::vector<SensorUse>& sensors) {
@@ -125,7 +124,7 @@ std::string usedLabels(const std::vector<SensorUse>& sensors) {
 
 void requireSensors(const LocalizeConfig& config, const std::vector<SensorUse>& sensors, const std::string& log) {
   for (const auto& sensor : sidestep::sensors())
-    if (isNamed(config.sensors, sensor.kind) && !wasUsed(sensors, sensor.kind))
+    if (isNamed(config.sensors, sensor.kind) && config.uses(sensor.kind) && !wasUsed(sensors, sensor.kind))
       throw DatasetError::missing(log + ": nothing of sensor '" + word(sensor.kind) + "' was usable (used: " +
                                   usedLabels(sensors) + "); see sidestep-rawlog info, and --label");
 }

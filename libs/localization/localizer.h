@@ -199,7 +199,8 @@ class Localizer {
   uint64_t odometry_count_ = 0;
   double first_odometry_s_ = 0;
   bool started_ = false;
-  bool scheduled_ = false;  // an estimate at now_s_ has not been given out yet: measurements of this instant may still come
+  bool scheduled_ =
+      false;  // an estimate at now_s_ has not been given out yet: measurements of this instant may still come
   std::optional<uint64_t> scheduled_index_;
 };
 

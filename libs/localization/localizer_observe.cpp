@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The door for sensors: readings of one instant become motion and measurements; localizer.cpp puts them in their places.
+// The door for sensors: readings of one instant become motion and measurements; localizer.cpp puts them in their
+// places.
 #include <mrpt/obs/CObservationOdometry.h>
 
 #include <algorithm>
@@ -122,7 +123,8 @@ void Localizer::gapNoise(MotionStep& motion) const {
   const double gap = motion.dt_s;
   if (gap <= params_.of<OdometryParams>().gap_s) return;
   motion.turn_var += std::min(M_PI * M_PI, std::pow(params_.coast_turn_accel * gap, 2));
-  motion.distance_var += std::pow(0.1 * motion.distance_m, 2) + std::pow(params_.of<OdometryParams>().still_speed * gap, 2);
+  motion.distance_var +=
+      std::pow(0.1 * motion.distance_m, 2) + std::pow(params_.of<OdometryParams>().still_speed * gap, 2);
 }
 
 void Localizer::addStill(const MotionSource::Step& step, int stream) {
@@ -134,7 +136,8 @@ void Localizer::addStill(const MotionSource::Step& step, int stream) {
   e.measurement.time_s = now_s_;
   e.measurement.stream = stream;
   e.measurement.z(0) = *step.resting_rate;
-  e.measurement.R(0, 0) = params_.of<ImuParams>().yaw_rate_sd * params_.of<ImuParams>().yaw_rate_sd / std::max(step.motion.dt_s, 1e-3);
+  e.measurement.R(0, 0) =
+      params_.of<ImuParams>().yaw_rate_sd * params_.of<ImuParams>().yaw_rate_sd / std::max(step.motion.dt_s, 1e-3);
   append(std::move(e));
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 #include <deque>
 
-#include "localization/sensors/odometry_model.h"
 #include "localization/sensors/imu.h"
+#include "localization/sensors/odometry_model.h"
 
 namespace sidestep {
 

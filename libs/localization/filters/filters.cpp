@@ -47,14 +47,33 @@ std::unique_ptr<PoseFilter> mcl(const ParamSections& p, const FilterInputs& in) 
 
 const std::vector<FilterRow>& filters() {
   static const std::vector<FilterRow> kRows = {
-      {.name = "ekf", .about = "extended Kalman filter", .section = &kEkf, .can_smooth = true,
-       .gate_probability = ekfGate, .heading_offset_sd = ekfOffset, .make = ekf},
-      {.name = "pf", .about = "particle filter", .section = &kPf, .gate_probability = pfGate,
-       .heading_offset_sd = pfOffset, .joins_instants = pfJoins, .make = pf},
-      {.name = "mcl", .about = "Monte Carlo localization: a laser in a map", .section = &kMcl, .needs_map = true,
-       .heading_offset_sd = mclOffset, .make = mcl},
-      {.name = "odometry", .about = "odometry alone", .section = &kEkf, .can_smooth = true, .odometry_only = true,
-       .heading_offset_sd = ekfOffset, .make = ekf},
+      {.name = "ekf",
+       .about = "extended Kalman filter",
+       .section = &kEkf,
+       .can_smooth = true,
+       .gate_probability = ekfGate,
+       .heading_offset_sd = ekfOffset,
+       .make = ekf},
+      {.name = "pf",
+       .about = "particle filter",
+       .section = &kPf,
+       .gate_probability = pfGate,
+       .heading_offset_sd = pfOffset,
+       .joins_instants = pfJoins,
+       .make = pf},
+      {.name = "mcl",
+       .about = "Monte Carlo localization: a laser in a map",
+       .section = &kMcl,
+       .needs_map = true,
+       .heading_offset_sd = mclOffset,
+       .make = mcl},
+      {.name = "odometry",
+       .about = "odometry alone",
+       .section = &kEkf,
+       .can_smooth = true,
+       .odometry_only = true,
+       .heading_offset_sd = ekfOffset,
+       .make = ekf},
   };
   return kRows;
 }
@@ -72,7 +91,7 @@ const FilterRow& filterOf(const std::string& name) {
   throw ConfigError("no filter '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
-std::string filtersWith(bool FilterRow::* trait) {
+std::string filtersWith(bool FilterRow::*trait) {
   std::string out;
   for (const auto& row : filters())
     if (row.*trait) out += (out.empty() ? "" : ", ") + std::string(row.name);

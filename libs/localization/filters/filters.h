@@ -16,9 +16,9 @@ class PoseFilter;  // localization/pose_filter.h
 
 /// What a filter is made from, besides its parameters.
 struct FilterInputs {
-  uint64_t seed = 1;                   ///< of what it draws
-  const GridMap* map = nullptr;        ///< for filters that need one
-  bool start_is_unknown = false;       ///< the robot may be anywhere on the map
+  uint64_t seed = 1;              ///< of what it draws
+  const GridMap* map = nullptr;   ///< for filters that need one
+  bool start_is_unknown = false;  ///< the robot may be anywhere on the map
 };
 
 /// A filter as the table knows it.
@@ -44,7 +44,7 @@ std::vector<std::string> filterNames();
 /// @throws ConfigError for a name that is none, with the nearest known one
 const FilterRow& filterOf(const std::string& name);
 /// "ekf, pf, ...": the names of those that have a trait.
-std::string filtersWith(bool FilterRow::* trait);
+std::string filtersWith(bool FilterRow::*trait);
 /// Parameters of all filters.
 ParamSections filterParams();
 

@@ -42,9 +42,9 @@ struct MclParams {
 ///
 /// Where the start is unknown, a dense lattice of poses drawn over all free space is weighed by the first scan and the
 /// particles are drawn from it. A scan that would leave fewer than `least_ess_share` effective particles is taken with
-/// a smaller exponent, so that no single scan decides among many places. Other places are followed along (PoseHypotheses); when
-/// one of them fits better over some way, a share of the particles is drawn anew from there. A scan is used only once
-/// the robot has moved: the same view again says nothing new.
+/// a smaller exponent, so that no single scan decides among many places. Other places are followed along
+/// (PoseHypotheses); when one of them fits better over some way, a share of the particles is drawn anew from there. A
+/// scan is used only once the robot has moved: the same view again says nothing new.
 class Mcl final : public ParticleFilter {
  public:
   /// @param global  `start`'s belief is not to be trusted: the robot may be anywhere on the map

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/random.h"
-#include "localization/filters/particle_cloud.h"
 #include "localization/filters/gate_reset.h"
-#include "localization/pose_filter.h"
+#include "localization/filters/particle_cloud.h"
 #include "localization/filters/resampling.h"
+#include "localization/pose_filter.h"
 
 namespace sidestep {
 

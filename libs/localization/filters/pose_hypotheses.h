@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "localization/motion.h"
 #include "localization/filters/scan_model.h"
+#include "localization/motion.h"
 
 namespace sidestep {
 

@@ -28,9 +28,8 @@ std::unique_ptr<SensorModel> from(const ParamSections& p) {
 bool imuTellsHeading(const ParamSections& p) { return p.of<ImuParams>().heading != "off"; }
 
 std::string beaconsLack(const ParamSections& p) {
-  return p.of<BeaconParams>().beacons.empty()
-             ? "the configuration names no beacons; list them under beacons.beacons"
-             : "";
+  return p.of<BeaconParams>().beacons.empty() ? "the configuration names no beacons; list them under beacons.beacons"
+                                              : "";
 }
 
 std::vector<std::string> words() {
