@@ -255,7 +255,7 @@ void Localizer::start(const StartBelief& s) {
 }
 
 void Localizer::finish() {
-  processInstant();
+  completeInstant();
   tryStart(true);
   if (!started_) return;
   if (!pending_.empty()) {

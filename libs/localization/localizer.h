@@ -103,6 +103,8 @@ class Localizer {
   /// among them, else their own; their order does not matter. They are processed once a reading of another instant, or
   /// `finish`, comes.
   void observe(const Reading& reading);
+  /// Nothing more of the present instant comes: processes it now.
+  void completeInstant();
   /// No more observations come: what waits is processed.
   void finish();
   /// From now on estimates are held until `finish`, which smooths them by the whole log (Smoother: memory grows with
@@ -142,7 +144,6 @@ class Localizer {
     int stream = 0;
   };
   int streamOf(const Reading& reading);
-  void processInstant();
   void joinInstant();
   void motion(const Heard& heard);
   void measurements(Heard& heard);

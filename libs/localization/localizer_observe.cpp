@@ -25,7 +25,7 @@ int Localizer::streamOf(const Reading& reading) {
 
 void Localizer::observe(const Reading& reading) {
   if (models_.find(reading.kind) == models_.end()) return;
-  if (heard_ > 0 && std::abs(reading.time_s - instant_[0].reading.time_s) > kInstant_s) processInstant();
+  if (heard_ > 0 && std::abs(reading.time_s - instant_[0].reading.time_s) > kInstant_s) completeInstant();
   if (heard_ == instant_.size()) instant_.emplace_back();
   Heard& heard = instant_[heard_++];
   heard.reading = reading;
@@ -33,7 +33,7 @@ void Localizer::observe(const Reading& reading) {
 }
 
 /// A gyro's rate first, as it is part of the motion that the odometry closes; measurements last.
-void Localizer::processInstant() {
+void Localizer::completeInstant() {
   const auto begin = instant_.begin(), end = begin + static_cast<std::ptrdiff_t>(heard_);
   std::stable_sort(begin, end, [](const Heard& a, const Heard& b) {
     return std::tie(a.reading.kind, a.reading.label) < std::tie(b.reading.kind, b.reading.label);

@@ -12,11 +12,7 @@ class BeaconSensor final : public SensorModel {
   explicit BeaconSensor(const BeaconParams& params) : params_(params) {}
   void interpret(const Reading& r, SensorSays& out) override {
     const auto* ranges = dynamic_cast<const mrpt::obs::CObservationBeaconRanges*>(r.observation.get());
-    if (ranges == nullptr) return;
-    for (const auto& range : ranges->sensedData)
-      for (const auto& beacon : params_.beacons)
-        if (static_cast<int>(beacon[0]) == range.beaconID)
-          out.measurements.push_back(measurement(r.time_s, range, beacon));
+    if (ranges != nullptr) collect(r.time_s, *ranges, out.measurements);
     if (out.measurements.empty())
       out.refused = "unknown_beacon";
     else
@@ -24,6 +20,11 @@ class BeaconSensor final : public SensorModel {
   }
 
  private:
+  void collect(double time_s, const mrpt::obs::CObservationBeaconRanges& ranges, std::vector<Measurement>& out) const {
+    for (const auto& range : ranges.sensedData)
+      for (const auto& beacon : params_.beacons)
+        if (static_cast<int>(beacon[0]) == range.beaconID) out.push_back(measurement(time_s, range, beacon));
+  }
   template <class Range>
   Measurement measurement(double time_s, const Range& range, const std::vector<double>& beacon) const {
     Measurement m;

@@ -564,12 +564,11 @@ TEST(ParticleFilterState, ALateFixGivesTheSameAsOneInTime) {
     params.start.pose_given = true;
     params.start.position_sd_m = 0.5;
     Localizer localizer(params, makeParticleFilter(PfParams(), 5), {});
-    const int wheels = localizer.addStream("odometry"), gps = localizer.addStream("gps");
     for (int i = 0; i <= 100; ++i) {
       const double t = support::kStart_s + 0.1 * i;
-      localizer.odometry(wheels, t, support::odometryAt(t, support::onCircle(1, 0.1, 0.1 * i)));
+      localizer.observe(support::wheelsAt(t, support::onCircle(1, 0.1, 0.1 * i)));
       const auto p = support::onCircle(1, 0.1, 4.55);
-      if (i == 45 + late_steps) localizer.position(gps, support::kStart_s + 4.55, p.x + 1, p.y);
+      if (i == 45 + late_steps) localizer.observe(support::positionAt(support::kStart_s + 4.55, p.x + 1, p.y));
     }
     localizer.finish();
     return localizer.takeEstimates().back().belief.mean;

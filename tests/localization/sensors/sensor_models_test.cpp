@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "localization/sensors/sensor_models.h"
-
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationBeaconRanges.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
 
 #include <limits>
 
+#include "localization/sensors/beacons.h"
+#include "localization/sensors/gps.h"
+#include "localization/sensors/imu.h"
+#include "localization/sensors/sensors.h"
 #include "support/readings.h"
 
 namespace sidestep {
@@ -175,7 +178,10 @@ TEST(BeaconMeasurements, TellOfKnownBeaconsOnly) {
     range.sensorLocationOnRobot = mrpt::poses::CPoint3D(0.1, 0.2, 0.3);
     o.sensedData.push_back(range);
   }
-  const auto found = beaconMeasurements(params, kStart_s, o);
+  SensorSays says;
+  makeBeaconSensor(params)->interpret(support::readingOf(SensorKind::kBeacons, kStart_s, o), says);
+  EXPECT_EQ(says.read, 1u);
+  const auto& found = says.measurements;
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].kind, Measurement::Kind::kRange);
   EXPECT_EQ(found[0].z(0), 4.5);
@@ -183,6 +189,41 @@ TEST(BeaconMeasurements, TellOfKnownBeaconsOnly) {
   EXPECT_EQ(found[0].time_s, kStart_s - 0.1);
   EXPECT_EQ(found[0].p_map_beacon, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(found[0].p_base_sensor, Eigen::Vector3d(0.1, 0.2, 0.3));
+}
+
+TEST(BeaconMeasurements, SaySoWhereNoBeaconIsKnown) {
+  CObservationBeaconRanges o;
+  o.sensedData.resize(1);
+  SensorSays says;
+  makeBeaconSensor({})->interpret(support::readingOf(SensorKind::kBeacons, kStart_s, o), says);
+  EXPECT_TRUE(says.measurements.empty());
+  EXPECT_STREQ(says.refused, "unknown_beacon");
+}
+
+// ---- the table ----
+
+TEST(Sensors, EachRowHasWordsParametersAndAModel) {
+  const auto params = sensorParams();
+  for (const auto& row : sensors()) {
+    EXPECT_EQ(sensorOf(row.kind), &row);
+    EXPECT_STRNE(row.about, "") << word(row.kind);
+    EXPECT_STREQ(row.section->key, word(row.kind).c_str());
+    EXPECT_NE(row.make(params), nullptr) << word(row.kind);
+  }
+  EXPECT_EQ(sensorOf(SensorKind::kOther), nullptr);
+}
+
+/// An observation that is not of the sensor's class is refused by name, never believed.
+TEST(Sensors, EachModelRefusesWhatItCannotRead) {
+  const auto params = sensorParams();
+  for (const auto& row : sensors()) {
+    Reading reading{kStart_s, row.kind, "strange", std::make_shared<CObservationComment>()};
+    SensorSays says;
+    row.make(params)->interpret(reading, says);
+    EXPECT_TRUE(says.measurements.empty() && !says.wheels && !says.yaw_rate) << word(row.kind);
+    ASSERT_NE(says.refused, nullptr) << word(row.kind);
+    EXPECT_STRNE(says.refused, "") << word(row.kind);
+  }
 }
 
 }  // namespace
