@@ -178,7 +178,7 @@ ExitCode runBand(const Options& o) {
 
 void addBandCommand(CLI::App& app, Work& work) {
   auto o = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("band", "solve a file of problems with a timed elastic band, and time it");
+  CLI::App* sub = app.add_subcommand("band", "benchmark timed elastic bands on a CSV of problems");
   sub->add_option("--problems", o->problems, "n_obs,seed,i,x,y,vx,vy: point obstacles between (0,0,0) and (8,0)")
       ->type_name("FILE");
   sub->add_option("--planner", o->planner, "teb, pteb, eteb, eteb-printed, pteb+eteb")
