@@ -23,6 +23,7 @@ void RobotParams::visit(ParamVisitor& v) {
   v.number("y_m", y_m, {-1e5, 1e5}, "m", "start");
   v.angle("yaw_deg", yaw, {-360, 360}, "start");
   v.number("start_shift_m", start_shift_m, {0, 1e5}, "m", "start: at random within so much in x and y");
+  v.angle("start_turn_deg", start_turn, {0, 180}, "start: heading at random within so much to either side");
   v.number("start_speed", start_speed, {-50, 50}, "m/s", "speed at the start");
   v.number("goal_x_m", goal_x_m, {-1e5, 1e5}, "m", "goal");
   v.number("goal_y_m", goal_y_m, {-1e5, 1e5}, "m", "goal");

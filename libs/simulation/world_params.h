@@ -30,6 +30,7 @@ struct RobotParams {
   double goal_x_m = 0, goal_y_m = 0, goal_tolerance_m = 0.3;
   Table goals;               ///< x, y: to be reached one after the other; empty: the one above
   double start_shift_m = 0;  ///< start: at random within so much in x and y
+  double start_turn = 0;     ///< start: at random within so much to either side [rad]
   double start_speed = 0;    ///< m/s
   RouteParams route;
   std::string planner = "straight";
