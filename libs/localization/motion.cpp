@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/kinematics.h"
+
 namespace sidestep {
 
 MotionStep MotionStep::part(double fraction) const {
@@ -40,9 +42,7 @@ void MotionNoiseParams::apply(MotionStep& s) const {
 }
 
 mrpt::math::TPose2D moved(const mrpt::math::TPose2D& pose, const MotionStep& step) {
-  const double beta = pose.phi + 0.5 * step.turn_rad;
-  return {pose.x + step.distance_m * std::cos(beta), pose.y + step.distance_m * std::sin(beta),
-          pose.phi + step.turn_rad};
+  return alongChord(pose, step.distance_m, step.turn_rad);
 }
 
 }  // namespace sidestep

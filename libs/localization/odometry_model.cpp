@@ -8,12 +8,13 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/kinematics.h"
 
 namespace sidestep {
 namespace {
 
 /// Arc and turn as a displacement (2.1), the chord at half the turn.
-mrpt::math::TPose2D arc(double ds, double turn) { return {ds * std::cos(0.5 * turn), ds * std::sin(0.5 * turn), turn}; }
+mrpt::math::TPose2D arc(const BodyMotion& motion) { return alongChord({}, motion.ahead, motion.turn); }
 
 }  // namespace
 
@@ -59,12 +60,12 @@ OdometryModel::Source OdometryModel::pickSource(const Reading& now) const {
 mrpt::math::TPose2D OdometryModel::displacement(const Reading& now, Source source) const {
   const double dt = now.time_s - last_->time_s;
   if (source == Source::kVelocity)
-    return arc(0.5 * (last_->velocity.vx + now.velocity.vx) * dt,
-               0.5 * (last_->velocity.omega + now.velocity.omega) * dt);
+    return arc(
+        {0.5 * (last_->velocity.vx + now.velocity.vx) * dt, 0.5 * (last_->velocity.omega + now.velocity.omega) * dt});
   if (source == Source::kTicks) {  // (2.2)
     const double left = (now.left_ticks - last_->left_ticks) * params_.ticks_left_m;
     const double right = (now.right_ticks - last_->right_ticks) * params_.ticks_right_m;
-    return arc(0.5 * (left + right), (right - left) / params_.track_m);
+    return arc(bodyOf({left, right}, params_.track_m));
   }
   const double c = std::cos(last_->pose.phi), s = std::sin(last_->pose.phi);
   const double dx = now.pose.x - last_->pose.x, dy = now.pose.y - last_->pose.y;

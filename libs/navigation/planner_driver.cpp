@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/diff_drive.h"
+#include "core/kinematics.h"
 
 namespace sidestep {
 namespace {
@@ -95,14 +95,13 @@ std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner,
 
 DriverFactory plannerDrivers(const DriverParams& params) {
   return [params](const std::string& name, const RobotLimits& limits) -> std::unique_ptr<Driver> {
-    if (name == "straight" || name == "stand") return makeSimpleDriver(name, limits);
     return makePlannerDriver(makeLocalPlanner(name, params.planners), limits, params);
   };
 }
 
 bool isLocalPlanner(const std::string& name) {
-  const auto names = localPlannerNames();
-  return std::find(names.begin(), names.end(), name) != names.end();
+  const auto& rows = localPlanners();
+  return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return name == row.name && row.avoids; });
 }
 
 }  // namespace sidestep

@@ -41,12 +41,11 @@ using PlanWatch = std::function<void(const PlanInput&, const PlanOutput&)>;
 std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
                                           const DriverParams& params = {}, PlanWatch watch = {});
 
-/// Makes the drivers of a world's robots: local planners by name, and what `makeSimpleDriver` makes. The factory may
-/// outlive `params`.
-/// @throws ConfigError when called with a name that is neither, with all names
+/// Makes the drivers of a world's robots: local planners by name. The factory may outlive `params`.
+/// @throws ConfigError when called with a name that is none, with all names
 DriverFactory plannerDrivers(const DriverParams& params);
 
-/// Whether a driver of that name is a local planner, with plans that can be watched.
+/// Whether a local planner of that name considers anything, so that its plans can be watched.
 bool isLocalPlanner(const std::string& name);
 
 }  // namespace sidestep

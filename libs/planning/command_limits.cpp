@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/kinematics.h"
+
 namespace sidestep {
 namespace {
 
@@ -12,7 +14,7 @@ double orZero(double value) { return std::isfinite(value) ? value : 0; }
 
 /// Speed limits of the wheels: the way towards standing still keeps the curvature.
 void keepWheels(double& v, double& w, const RobotLimits& limits) {
-  const double fastest = std::abs(v) + std::abs(w) * limits.track_m / 2;
+  const double fastest = outerWheelSpeed(v, w, limits.track_m);
   if (fastest <= limits.wheel_speed_max) return;
   const double share = limits.wheel_speed_max / fastest * (1 - 1e-12);
   v *= share;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "planning/planning_geometry.h"
+#include "core/geometry.h"
 
 namespace sidestep {
 namespace {
@@ -55,20 +55,11 @@ ReachableTwists reachableTwists(const PlanInput& input) {
 }
 
 TPoint2D targetPoint(const PlanInput& input, double lookahead_m) {
-  const TPoint2D goal{input.goal.x, input.goal.y}, here{input.pose.x, input.pose.y};
+  const TPoint2D goal = pointOf(input.goal);
   if (input.path.empty()) return goal;
-  size_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < input.path.size(); ++i) {
-    const double d = (TPoint2D{input.path[i].x, input.path[i].y} - here).norm();
-    if (d < least) {
-      least = d;
-      nearest = i;
-    }
-  }
   double along = 0;
-  for (size_t i = nearest; i + 1 < input.path.size(); ++i) {
-    const TPoint2D a{input.path[i].x, input.path[i].y}, b{input.path[i + 1].x, input.path[i + 1].y};
+  for (size_t i = nearestPose(input.path, pointOf(input.pose)); i + 1 < input.path.size(); ++i) {
+    const TPoint2D a = pointOf(input.path[i]), b = pointOf(input.path[i + 1]);
     const double step = (b - a).norm();
     if (along + step >= lookahead_m) return a + (b - a) * (step > 0 ? (lookahead_m - along) / step : 0);
     along += step;
@@ -107,11 +98,14 @@ void brakeFor(const PlanInput& input, const char* reason, PlanOutput& out) {
   out.reason = reason;
 }
 
+bool refusesInput(const PlanInput& input, PlanOutput& out) {
+  const char* reason = whyUnusable(input);
+  if (reason != nullptr) brakeFor(input, reason, out);
+  return reason != nullptr;
+}
+
 bool answeredAtDoor(const PlanInput& input, const GoalParams& params, PlanOutput& out) {
-  if (const char* reason = whyUnusable(input)) {
-    brakeFor(input, reason, out);
-    return true;
-  }
+  if (refusesInput(input, out)) return true;
   if (std::hypot(input.goal.x - input.pose.x, input.goal.y - input.pose.y) > params.tolerance_m) return false;
   const double turn = wrapped(input.goal.phi - input.pose.phi);
   brakeFor(input, "", out);

@@ -40,6 +40,9 @@ void beginOutput(PlanOutput& out);
 /// Brakes as hard as the base can, saying why. `reason` is a text that lives on.
 void brakeFor(const PlanInput& input, const char* reason, PlanOutput& out);
 
+/// Brakes, saying why, where something of the input is not finite. @return whether it did
+bool refusesInput(const PlanInput& input, PlanOutput& out);
+
 /// The cycles in which nothing is to be planned: input that is not finite (brakes), the goal reached (stops, after
 /// turning to its heading if that matters).
 /// @return whether `out` holds the answer

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry.h"
+
 namespace sidestep {
 namespace {
 

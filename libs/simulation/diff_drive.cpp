@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/diff_drive.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "core/kinematics.h"
 
 namespace sidestep {
 
@@ -16,14 +16,6 @@ void DriveParams::visit(ParamVisitor& v) {
   v.number("slip_sd", slip_sd, {0, 0.5}, "", "sd of that");
   v.number("slip_correlation_s", slip_correlation_s, {0, 3600}, "s", "time over which slip stays alike");
   v.number("timeout_s", timeout_s, {0, 60}, "s", "without orders for this long the base stops; 0: never");
-}
-
-mrpt::math::TPose2D alongArc(const mrpt::math::TPose2D& pose, double distance_m, double turn_rad) {
-  // The chord of an arc is sin(half the turn) / (half the turn) as long and points along half the turn.
-  const double half = 0.5 * turn_rad;
-  const double chord = distance_m * (std::abs(half) < 1e-4 ? 1 - half * half / 6 : std::sin(half) / half);
-  return {pose.x + chord * std::cos(pose.phi + half), pose.y + chord * std::sin(pose.phi + half),
-          mrpt::math::wrapToPi(pose.phi + turn_rad)};
 }
 
 DiffDrive::DiffDrive(const DriveParams& params, const RobotLimits& limits, const mrpt::math::TPose2D& start,
@@ -48,7 +40,7 @@ void DiffDrive::aim(double time_s) {
     orders_.pop_front();
     target_v_ = std::clamp(o.v, -limits_.v_reverse, limits_.v_max);
     target_w_ = std::clamp(o.w, -limits_.w_max, limits_.w_max);
-    const double fastest = std::abs(target_v_) + 0.5 * limits_.track_m * std::abs(target_w_);
+    const double fastest = outerWheelSpeed(target_v_, target_w_, limits_.track_m);
     if (fastest <= limits_.wheel_speed_max) continue;
     target_v_ *= limits_.wheel_speed_max / fastest;
     target_w_ *= limits_.wheel_speed_max / fastest;
@@ -71,14 +63,12 @@ void DiffDrive::step(double time_s, double dt_s) {
   wheel_distance_ = 0.5 * (v_ + v) * dt_s;
   wheel_turn_ = 0.5 * (w_ + w) * dt_s;
   v_ = v, w_ = w;
-  const double half = 0.5 * limits_.track_m;
-  const double left = (wheel_distance_ - half * wheel_turn_) *
-                      (1 - std::clamp(params_.slip_mean + left_slip_.step(dt_s, random_), -1.0, 1.0));
-  const double right = (wheel_distance_ + half * wheel_turn_) *
-                       (1 - std::clamp(params_.slip_mean + right_slip_.step(dt_s, random_), -1.0, 1.0));
-  const double distance = 0.5 * (left + right), turn = (right - left) / limits_.track_m;
-  ground_v_ = distance / dt_s, ground_w_ = turn / dt_s;
-  pose_ = alongArc(pose_, distance, turn);
+  WheelMotion rims = wheelsOf({wheel_distance_, wheel_turn_}, limits_.track_m);
+  rims.left *= 1 - std::clamp(params_.slip_mean + left_slip_.step(dt_s, random_), -1.0, 1.0);
+  rims.right *= 1 - std::clamp(params_.slip_mean + right_slip_.step(dt_s, random_), -1.0, 1.0);
+  const BodyMotion ground = bodyOf(rims, limits_.track_m);
+  ground_v_ = ground.ahead / dt_s, ground_w_ = ground.turn / dt_s;
+  pose_ = alongArc(pose_, ground.ahead, ground.turn);
 }
 
 void DiffDrive::block(const mrpt::math::TPose2D& before) {

@@ -66,7 +66,4 @@ class DiffDrive {
   double wheel_distance_ = 0, wheel_turn_ = 0;
 };
 
-/// `pose` after an arc of length `distance_m` and turn `turn_rad`, exactly; heading in [-pi, pi).
-mrpt::math::TPose2D alongArc(const mrpt::math::TPose2D& pose, double distance_m, double turn_rad);
-
 }  // namespace sidestep

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/kinematics.h"
 
 namespace sidestep {
 namespace {
@@ -16,10 +17,8 @@ enum Stream : uint64_t { kEncoders = 1, kImu = 2, kGps = 3 };
 /// (2.3)-(2.4): along the chord at half the turn.
 void deadReckon(OdometrySample& odometry) {
   auto& p = odometry.pose;
-  const double direction = p.phi + 0.5 * odometry.turn_rad;
-  p.x += odometry.distance_m * std::cos(direction);
-  p.y += odometry.distance_m * std::sin(direction);
-  p.phi = mrpt::math::wrapToPi(p.phi + odometry.turn_rad);
+  p = alongChord(p, odometry.distance_m, odometry.turn_rad);
+  p.phi = mrpt::math::wrapToPi(p.phi);
 }
 
 }  // namespace

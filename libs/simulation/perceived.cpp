@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/geometry.h"
+
 namespace sidestep {
 namespace {
 

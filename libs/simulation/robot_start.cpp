@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/errors.h"
+#include "core/geometry.h"
 #include "simulation/contacts.h"
 
 namespace sidestep {

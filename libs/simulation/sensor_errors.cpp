@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "core/kinematics.h"
+
 namespace sidestep {
 
 void EncoderParams::visit(ParamVisitor& v) {
@@ -34,9 +36,9 @@ double EncoderModel::wheel(double way_m, double scale, CorrelatedError& slip, do
 EncoderModel::Reading EncoderModel::step(double dt_s, double distance_m, double turn_rad) {
   const double distance = distance_m + params_.v_sd * random_.gaussian() * dt_s;
   const double turn = turn_rad + params_.w_sd * random_.gaussian() * dt_s;
-  const double half_track = 0.5 * params_.track_m * params_.track_scale;
-  double left = wheel(distance - half_track * turn, params_.left_scale, left_slip_, dt_s);
-  double right = wheel(distance + half_track * turn, params_.right_scale, right_slip_, dt_s);
+  const WheelMotion rims = wheelsOf({distance, turn}, params_.track_m * params_.track_scale);
+  double left = wheel(rims.left, params_.left_scale, left_slip_, dt_s);
+  double right = wheel(rims.right, params_.right_scale, right_slip_, dt_s);
   if (params_.tick_m > 0) {
     left_way_ += left, right_way_ += right;
     const auto left_ticks = static_cast<int64_t>(std::floor(left_way_ / params_.tick_m));
@@ -45,7 +47,8 @@ EncoderModel::Reading EncoderModel::step(double dt_s, double distance_m, double 
     right = static_cast<double>(right_ticks - right_ticks_) * params_.tick_m;
     left_ticks_ = left_ticks, right_ticks_ = right_ticks;
   }
-  return {0.5 * (left + right), (right - left) / params_.track_m, left_ticks_, right_ticks_};
+  const BodyMotion read = bodyOf({left, right}, params_.track_m);
+  return {read.ahead, read.turn, left_ticks_, right_ticks_};
 }
 
 void ImuErrorParams::visit(ParamVisitor& v) {

@@ -6,29 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry.h"
+
 namespace sidestep {
 namespace {
 
 using mrpt::math::TPoint2D;
 
-double cross(const TPoint2D& a, const TPoint2D& b) { return a.x * b.y - a.y * b.x; }
-
-bool cross(const Segment& s, const TPoint2D& a, const TPoint2D& b) {
-  const TPoint2D d = b - a, e = s.b - s.a, f = s.a - a;
-  const double det = cross(d, e);
-  if (det == 0) return false;
-  const double t = cross(f, e) / det, u = cross(f, d) / det;
-  return t >= 0 && t <= 1 && u >= 0 && u <= 1;
-}
-
 }  // namespace
-
-TPoint2D nearestPoint(const Segment& wall, const TPoint2D& p) {
-  const TPoint2D d = wall.b - wall.a, r = p - wall.a;
-  const double length2 = d.x * d.x + d.y * d.y;
-  const double t = length2 > 0 ? std::clamp((r.x * d.x + r.y * d.y) / length2, 0.0, 1.0) : 0;
-  return {wall.a.x + t * d.x, wall.a.y + t * d.y};
-}
 
 WallIndex::WallIndex(std::vector<Segment> walls, double cell_m) : walls_(std::move(walls)), cell_m_(cell_m) {
   if (walls_.empty()) return;
@@ -87,7 +72,7 @@ void WallIndex::near(const TPoint2D& p, double radius_m, std::vector<uint32_t>& 
 
 bool WallIndex::blocks(const TPoint2D& a, const TPoint2D& b, std::vector<uint32_t>& scratch) const {
   box(std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y), scratch);
-  return std::any_of(scratch.begin(), scratch.end(), [&](uint32_t i) { return cross(walls_[i], a, b); });
+  return std::any_of(scratch.begin(), scratch.end(), [&](uint32_t i) { return intersect(walls_[i], {a, b}); });
 }
 
 }  // namespace sidestep

@@ -40,7 +40,4 @@ class WallIndex {
   int columns_ = 0, rows_ = 0;
 };
 
-/// The point of a wall that is nearest to p.
-mrpt::math::TPoint2D nearestPoint(const Segment& wall, const mrpt::math::TPoint2D& p);
-
 }  // namespace sidestep

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry.h"
+#include "core/kinematics.h"
 #include "simulation/robot_start.h"
 
 namespace sidestep {

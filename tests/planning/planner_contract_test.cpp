@@ -9,6 +9,8 @@
 
 #include "core/errors.h"
 #include "planning/planners.h"
+#include "planning/velocity/hrvo_planner.h"
+#include "planning/window/window_planner.h"
 #include "support/allocations.h"
 #include "support/planning_worlds.h"
 
@@ -162,7 +164,8 @@ TEST(LocalPlanners, StayFiniteWhereObstaclesOverlapTheRobotOrEachOther) {
 TEST(LocalPlanners, MirroredWorldsGetMirroredCommands) {
   Random random(4);
   LocalPlannerParams params;
-  params.edwa.hrvo.keep_right = params.hrvo.hrvo.keep_right = 0;  // a rule of the road has no mirror image
+  params.of<EdwaParams>().hrvo.keep_right = params.of<HrvoPlannerParams>().hrvo.keep_right =
+      0;  // a rule of the road has no mirror image
   for (const auto& name : kNames) {
     int compared = 0;
     for (int i = 0; i < 200; ++i) {

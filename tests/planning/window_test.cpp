@@ -3,6 +3,7 @@
 // The dynamic window: closed forms of its parts.
 #include <gtest/gtest.h>
 
+#include "core/kinematics.h"
 #include "planning/planners.h"
 #include "planning/window/clearance_scorer.h"
 #include "planning/window/heading_scorer.h"
@@ -10,6 +11,7 @@
 #include "planning/window/hrvo_speed_scorer.h"
 #include "planning/window/speed_scorer.h"
 #include "planning/window/surroundings.h"
+#include "planning/window/window_planner.h"
 #include "support/planning_worlds.h"
 
 namespace sidestep::testing {
@@ -31,7 +33,7 @@ Rollout followed(const PlanInput& input, double v, double w, bool predict = true
   s.look(input, 3, step_s, 0, predict, 0);
   std::vector<double> x, y;
   for (int k = 0; k <= s.steps(); ++k) {
-    const ArcPose p = onArc(1, w, k * s.step());
+    const auto p = arcFromOrigin(k * s.step(), w * (k * s.step()));
     x.push_back(p.x);
     y.push_back(p.y);
   }
@@ -42,11 +44,11 @@ Rollout followed(const PlanInput& input, double v, double w, bool predict = true
 
 TEST(Rollout, IsTheExactArc) {
   // A quarter of a circle of radius 1 m: from (0, 0) to (1, 1), heading 90 deg.
-  const ArcPose p = onArc(1, 1, M_PI / 2);
+  const auto p = arcFromOrigin(M_PI / 2, M_PI / 2);
   EXPECT_NEAR(p.x, 1, 1e-12);
   EXPECT_NEAR(p.y, 1, 1e-12);
-  EXPECT_NEAR(p.heading, M_PI / 2, 1e-12);
-  EXPECT_NEAR(onArc(2, 0, 3).x, 6, 1e-12);
+  EXPECT_NEAR(p.phi, M_PI / 2, 1e-12);
+  EXPECT_NEAR(arcFromOrigin(6, 0).x, 6, 1e-12);
 }
 
 TEST(Scorers, HaveTheValuesOfTheirFormulas) {
@@ -176,7 +178,7 @@ TEST(Surroundings, SkippingStepsMissesNothing) {
     const Rollout r = followed(world.shown(), v, w);
     double first = std::numeric_limits<double>::infinity();
     for (int k = 1; k <= 30 && !std::isfinite(first); ++k) {
-      const ArcPose p = onArc(v, w, 0.1 * k);
+      const auto p = arcFromOrigin(v * (0.1 * k), w * (0.1 * k));
       for (const auto& m : world.moving) {
         const double d =
             std::hypot(m.position.x + m.velocity.x * 0.1 * k - p.x, m.position.y + m.velocity.y * 0.1 * k - p.y);
@@ -195,7 +197,7 @@ TEST(Surroundings, SkippingStepsMissesNothing) {
 TEST(Dwa, DoesNotDriveFasterThanItCanStop) {
   // Wall 0.6 m ahead of the rim. At 1 m/s 0.35 m would be left after the period, and stopping takes 0.5 m (2.24).
   LocalPlannerParams params;
-  params.dwa.margin_m = 0;
+  params.of<WindowParams>().margin_m = 0;
   auto world = openWorld(1);
   world.walls = {{{0.9, -5}, {0.9, 5}}};
   PlanOutput out;

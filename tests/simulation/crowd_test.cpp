@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "core/geometry.h"
+
 namespace sidestep {
 namespace {
 

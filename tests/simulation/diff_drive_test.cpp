@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "core/kinematics.h"
+
 namespace sidestep {
 namespace {
 
@@ -17,16 +19,6 @@ RobotLimits wide() {
 
 void go(DiffDrive& base, double from_s, double to_s, double dt = 0.01) {
   for (int k = 1; from_s + k * dt <= to_s + 1e-9; ++k) base.step(from_s + k * dt, dt);
-}
-
-TEST(AlongArc, IsExact) {
-  // A quarter of a circle of radius 2 to the left, from (1, 1) heading up: centre (-1, 1), ends at (-1, 3).
-  const auto p = alongArc({1, 1, M_PI / 2}, M_PI, M_PI / 2);
-  EXPECT_NEAR(p.x, -1, 1e-14);
-  EXPECT_NEAR(p.y, 3, 1e-14);
-  EXPECT_NEAR(std::abs(p.phi), M_PI, 1e-14);
-  const auto line = alongArc({0, 0, 0}, 3, 1e-12);
-  EXPECT_NEAR(line.x, 3, 1e-12);
 }
 
 TEST(DiffDrive, DrivesACircleExactlyWhateverTheStep) {

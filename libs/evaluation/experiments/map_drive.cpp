@@ -11,8 +11,8 @@
 #include <map>
 
 #include "core/errors.h"
+#include "core/kinematics.h"
 #include "planning/global/global_planners.h"
-#include "simulation/diff_drive.h"
 #include "simulation/map_walls.h"
 
 namespace sidestep {

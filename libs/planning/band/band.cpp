@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/kinematics.h"
+
 namespace sidestep {
 namespace {
 
@@ -48,7 +50,7 @@ bool slow(Piece& piece, double v, double w, double dt, double accel, double turn
 
 double leastBySpeed(const Piece& p, const RobotLimits& limits) {
   const double v_max = p.way >= 0 ? limits.v_max : std::max(limits.v_reverse, 1e-2);
-  const double wheel = (std::abs(p.way) + std::abs(p.turn) * limits.track_m / 2) / limits.wheel_speed_max;
+  const double wheel = outerWheelSpeed(p.way, p.turn, limits.track_m) / limits.wheel_speed_max;
   return std::max({std::abs(p.way) / v_max, std::abs(p.turn) / limits.w_max, wheel, kShortest_s});
 }
 
@@ -108,7 +110,6 @@ BandPose bandAt(const Band& band, double t) {
   const double share = (t - band[k].t) / i.dt, turn = share * i.turn;
   // the part of the arc: its chord is share * sinc(turn / 2) / sinc(whole / 2) of the whole chord, at heading + turn /
   // 2
-  const auto sinc = [](double half) { return std::abs(half) < 1e-4 ? 1 - half * half / 6 : std::sin(half) / half; };
   const double whole = sinc(i.turn / 2), scale = std::abs(whole) > 0.1 ? share * sinc(turn / 2) / whole : share;
   const double swing = (turn - i.turn) / 2, c = scale * std::cos(swing), s = scale * std::sin(swing);
   const double dx = band[k + 1].x - band[k].x, dy = band[k + 1].y - band[k].y;

@@ -62,6 +62,9 @@ struct BandPlannerParams {
 /// @throws ConfigError for another word
 BandPlannerParams bandPlannerParams(const std::string& planner);
 const std::vector<std::string>& bandPlannerNames();
+/// One of them: the name says how moving obstacles are seen and whether the HRVO model has a say; the rest is common to
+/// all bands.
+std::unique_ptr<LocalPlanner> makeBandPlanner(BandPlannerParams params, const std::string& planner);
 
 /// Runs f(0) .. f(n - 1), in any order, at the same time if it can.
 using ParallelFor = std::function<void(int n, const std::function<void(int)>& f)>;

@@ -73,4 +73,11 @@ BandPlannerParams bandPlannerParams(const std::string& planner) {
   return out;
 }
 
+std::unique_ptr<LocalPlanner> makeBandPlanner(BandPlannerParams params, const std::string& planner) {
+  const auto view = bandPlannerParams(planner).view;
+  params.view.obstacles = view.obstacles;
+  params.view.heading_of_hrvo = view.heading_of_hrvo;
+  return std::make_unique<BandPlanner>(params);
+}
+
 }  // namespace sidestep

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/kinematics.h"
+
 namespace sidestep {
 namespace {
 
@@ -48,10 +50,7 @@ Evasion::Answer Evasion::drive(const PlanInput& input, const ObstacleView& obsta
     const double v = turning ? 0 : m.v, w = turning ? std::copysign(most, left) : m.w;
     p.v = towards(p.v, v, dt, limits.accel, limits.brake);
     p.w = towards(p.w, w, dt, limits.turn_accel, limits.turn_accel);
-    const double mean = p.pose.phi + p.w * dt / 2;
-    p.pose.x += p.v * dt * std::cos(mean);
-    p.pose.y += p.v * dt * std::sin(mean);
-    p.pose.phi += p.w * dt;
+    p.pose = alongChord(p.pose, p.v * dt, p.w * dt);
     p.after_s += dt;
     turned += p.w * dt;
     driven_.push_back(p);

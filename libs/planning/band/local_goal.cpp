@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/geometry.h"
+
 namespace sidestep {
 
 void findLocalGoal(const PlanInput& input, double horizon_m, LocalGoal& out) {
@@ -13,12 +15,9 @@ void findLocalGoal(const PlanInput& input, double horizon_m, LocalGoal& out) {
   out.heading_free = !input.goal_heading_matters;
   const auto& path = input.path;
   if (path.empty()) return;
-  const auto distance = [&](size_t i) { return std::hypot(path[i].x - input.pose.x, path[i].y - input.pose.y); };
-  size_t at = 0;
-  for (size_t i = 1; i < path.size(); ++i)
-    if (distance(i) < distance(at)) at = i;
+  const size_t at = nearestPose(path, pointOf(input.pose));
   out.way.push_back({input.pose.x, input.pose.y});
-  double length = distance(at);
+  double length = std::hypot(path[at].x - input.pose.x, path[at].y - input.pose.y);
   for (size_t i = at; i < path.size(); ++i) {
     if (i > at) length += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
     out.way.push_back({path[i].x, path[i].y});

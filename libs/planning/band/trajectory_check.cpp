@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/kinematics.h"
+
 namespace sidestep {
 namespace {
 
@@ -38,10 +40,7 @@ void note(const Nearest& nearest, double t, double allowed, CheckResult& out) {
 
 /// One step of an arc at constant speeds.
 void drive(TrajectoryPoint& p, double dt) {
-  const double mean = p.pose.phi + p.w * dt / 2;
-  p.pose.x += p.v * dt * std::cos(mean);
-  p.pose.y += p.v * dt * std::sin(mean);
-  p.pose.phi += p.w * dt;
+  p.pose = alongChord(p.pose, p.v * dt, p.w * dt);
   p.after_s += dt;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planning/velocity/drive_conversion.h"
 
-#include "planning/planning_geometry.h"
+#include "core/geometry.h"
 
 namespace sidestep {
 

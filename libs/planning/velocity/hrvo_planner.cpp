@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "planning/planning_geometry.h"
+#include "core/geometry.h"
+#include "core/kinematics.h"
 #include "planning/velocity/drive_conversion.h"
 #include "planning/velocity/hrvo_sight.h"
 
@@ -42,20 +43,14 @@ class HrvoPlanner final : public LocalPlanner {
     out.status = PlanOutput::Status::kMoving;
     out.command.vx = std::clamp(wish.vx, reach.v_low, reach.v_high);
     out.command.omega = std::clamp(wish.omega, reach.w_low, reach.w_high);
-    const double rim = out.command.vx + 0.5 * input.limits.track_m * std::abs(out.command.omega);
+    const double rim = outerWheelSpeed(out.command.vx, out.command.omega, input.limits.track_m);
     if (rim > input.limits.wheel_speed_max) out.command *= input.limits.wheel_speed_max / rim;
   }
 
   static void showArc(const PlanInput& input, PlanOutput& out) {
     const double v = out.command.vx, w = out.command.omega;
     for (double t = 0; t <= kShown_s; t += kShownStep_s) {
-      const double half = 0.5 * w * t, chord = std::abs(half) > 1e-9 ? v * t * std::sin(half) / half : v * t;
-      const double a = input.pose.phi + half;
-      out.trajectory.push_back(
-          {t,
-           {input.pose.x + chord * std::cos(a), input.pose.y + chord * std::sin(a), input.pose.phi + 2 * half},
-           v,
-           w});
+      out.trajectory.push_back({t, alongArc(input.pose, v * t, w * t), v, w});
     }
   }
 

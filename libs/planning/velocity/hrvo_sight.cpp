@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry.h"
 #include "maps/distance_field.h"
-#include "planning/planning_geometry.h"
 
 namespace sidestep {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planning/planning_geometry.h"
+#include "core/geometry.h"
 
 namespace sidestep {
 namespace {

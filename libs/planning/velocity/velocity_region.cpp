@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planning/planning_geometry.h"
+#include "core/geometry.h"
 
 namespace sidestep {
 namespace {
@@ -73,7 +73,7 @@ VelocityRegion discRegion(RegionKind kind, const DiscView& disc, const TPoint2D&
 }
 
 VelocityRegion wallRegion(const Segment& wall, double radius_m, double horizon_s, double separate_s) {
-  const TPoint2D nearest = nearestOn(wall, {0, 0});
+  const TPoint2D nearest = nearestPoint(wall, {0, 0});
   const double d = nearest.norm();
   const TPoint2D axis = unit(nearest, d);
   if (d <= radius_m) return halfPlane(axis, -(radius_m - d) / separate_s);

@@ -25,10 +25,4 @@ struct ScoringView {
   double adviser_speed = 0;    ///< its length [m/s]
 };
 
-/// Where (v, w) leads within `t` seconds: (2.4) as an exact arc.
-struct ArcPose {
-  double x = 0, y = 0, heading = 0;
-};
-ArcPose onArc(double v, double w, double t);
-
 }  // namespace sidestep

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry.h"
 #include "maps/distance_field.h"
-#include "planning/planning_geometry.h"
 
 namespace sidestep {
 namespace {
@@ -121,7 +121,7 @@ void Surroundings::addStatic(const PlanInput& input, double margin_m) {
   wall_r_.clear();
   for (const auto& map : input.walls) {
     const Segment w{local(map.a), local(map.b)};
-    const double d = nearestOn(w, {0, 0}).norm();
+    const double d = nearestPoint(w, {0, 0}).norm();
     if (d > reach_m_) continue;
     walls_.push_back(w);
     wall_r_.push_back(radiusWith(bare, margin_m, d));
@@ -146,7 +146,7 @@ double Surroundings::staticGap(double x, double y) const {
   const auto n = static_cast<Eigen::Index>(point_x_.size());
   if (n > 0) gap = static_cast<double>(gaps(point_x_.data(), point_y_.data(), point_r_.data(), n, x, y).minCoeff());
   for (size_t i = 0; i < walls_.size(); ++i)
-    gap = std::min(gap, (nearestOn(walls_[i], {x, y}) - TPoint2D(x, y)).norm() - wall_r_[i]);
+    gap = std::min(gap, (nearestPoint(walls_[i], {x, y}) - TPoint2D(x, y)).norm() - wall_r_[i]);
   if (field_ != nullptr)
     gap = std::min(gap, field_->clearance(pose_.x + cos_ * x - sin_ * y, pose_.y + sin_ * x + cos_ * y) - field_r_);
   return gap;
@@ -190,7 +190,7 @@ bool Surroundings::isPassed(double x, double y) const {
     const TPoint2D at(mover_x_[end + i], mover_y_[end + i]), from(mover_x_[before + i], mover_y_[before + i]);
     const TPoint2D to = at + (at - from) * static_cast<double>(steps_);
     const double r = mover_r_[end + i];
-    const TPoint2D d = nearestOn({at, to}, {x, y}) - TPoint2D(x, y);
+    const TPoint2D d = nearestPoint({at, to}, {x, y}) - TPoint2D(x, y);
     if (d.x * d.x + d.y * d.y < r * r) return true;
   }
   return false;

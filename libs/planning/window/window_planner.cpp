@@ -5,7 +5,8 @@
 #include <array>
 #include <optional>
 
-#include "planning/planning_geometry.h"
+#include "core/geometry.h"
+#include "core/kinematics.h"
 #include "planning/velocity/hrvo_sight.h"
 #include "planning/window/clearance_scorer.h"
 #include "planning/window/heading_scorer.h"
@@ -80,7 +81,7 @@ class WindowPlanner final : public LocalPlanner {
         r.v = sample(reach.v_low, reach.v_high, i, params_.v_samples);
         r.w = w;
         const bool slowest = i == 0 && j == params_.w_samples / 2;  // stays, so that there is always one
-        if (r.v + 0.5 * input.limits.track_m * std::abs(w) > input.limits.wheel_speed_max && !slowest) continue;
+        if (outerWheelSpeed(r.v, w, input.limits.track_m) > input.limits.wheel_speed_max && !slowest) continue;
         surroundings_.follow(unit_x_, unit_y_, r);
         r.stops = r.admissible = admissible(input, r);
         for (const auto& s : scorers_) r.total += s.weight * (1 - s.scorer->score(r, view_));
@@ -97,7 +98,8 @@ class WindowPlanner final : public LocalPlanner {
     unit_x_.resize(static_cast<size_t>(surroundings_.steps()) + 1);
     unit_y_.resize(unit_x_.size());
     for (size_t k = 0; k < unit_x_.size(); ++k) {
-      const ArcPose p = onArc(1, w, static_cast<double>(k) * surroundings_.step());
+      const double t = static_cast<double>(k) * surroundings_.step();
+      const auto p = arcFromOrigin(t, w * t);
       unit_x_[k] = p.x;
       unit_y_[k] = p.y;
     }
@@ -161,11 +163,9 @@ class WindowPlanner final : public LocalPlanner {
     const double c = std::cos(input.pose.phi), s = std::sin(input.pose.phi);
     for (int k = 0; k <= surroundings_.steps(); ++k) {
       const double t = k * surroundings_.step();
-      const ArcPose p = onArc(r.v, r.w, t);
-      out.push_back({t,
-                     {input.pose.x + c * p.x - s * p.y, input.pose.y + s * p.x + c * p.y, input.pose.phi + p.heading},
-                     r.v,
-                     r.w});
+      const auto p = arcFromOrigin(r.v * t, r.w * t);
+      out.push_back(
+          {t, {input.pose.x + c * p.x - s * p.y, input.pose.y + s * p.x + c * p.y, input.pose.phi + p.phi}, r.v, r.w});
     }
   }
 
