@@ -8,7 +8,7 @@
 
 namespace sidestep {
 
-/// The first robot, those around it, and what its planner considered, at one time.
+/// The robot under test, those around it, and what its planner considered, at one time.
 struct PlanSnapshot {
   struct Line {
     std::vector<mrpt::math::TPoint2D> points;
@@ -33,7 +33,7 @@ struct SnapshotColumn {
 /// Runs a world until the last of `times_s`, or to its end, and looks at the first plan from each of them on. The plans
 /// are those of a run that is not looked at.
 /// @param times_s  not decreasing
-/// @return none if the first robot is not driven by a local planner
+/// @return none if the robot under test has no local planner
 std::vector<PlanSnapshot> takeSnapshots(const WorldScenario& scenario, uint64_t seed, const WorldInputs& inputs,
                                         const std::vector<double>& times_s);
 

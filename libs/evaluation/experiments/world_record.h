@@ -9,7 +9,7 @@
 
 namespace sidestep {
 
-/// The first robot at one time.
+/// The robot under test at one time.
 struct TimelineSample {
   double time_s = 0;
   double clearance_m =
