@@ -35,7 +35,7 @@ class ProgressBar {
 };
 
 /// A folder for results: created if need be, never written into when it holds something unless `overwrite`.
-/// `finish` leaves effective.yaml and command.txt in it.
+/// `writeConfiguration` leaves effective.yaml and command.txt in it.
 class OutputFolder {
  public:
   /// @throws ConfigError if the folder holds something and `overwrite` is not set.

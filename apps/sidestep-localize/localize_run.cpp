@@ -14,9 +14,9 @@
 #include "common/program.h"
 #include "datasets/log_reader.h"
 #include "evaluation/metrics/metrics_json.h"
+#include "evaluation/metrics/side_files.h"
+#include "evaluation/metrics/truth_comparison.h"
 #include "sidestep-localize/ordered_log.h"
-#include "sidestep-localize/side_files.h"
-#include "sidestep-localize/truth_comparison.h"
 
 namespace sidestep {
 namespace {
@@ -268,7 +268,7 @@ void Run::checkSensors() {
 }
 
 ExitCode Run::go() {
-  folder_.writeConfiguration([this](ParamVisitor& v) { const_cast<LocalizeConfig&>(config_).visit(v); });
+  folder_.writeConfiguration(fieldsOf(config_));
   config_.smooth ? smooth() : filter();
   truth_.finish();
   log_.close();
@@ -289,7 +289,7 @@ ExitCode Run::go() {
 ExitCode localize(const LocalizeOptions& options) {
   const LocalizeConfig config = effectiveConfig(options);
   if (options.write_config) {
-    std::fputs(writeYaml([&](ParamVisitor& v) { const_cast<LocalizeConfig&>(config).visit(v); }).c_str(), stdout);
+    std::fputs(writeYaml(fieldsOf(config)).c_str(), stdout);
     return ExitCode::kDone;
   }
   if (options.log.empty()) throw ConfigError("no LOG given; for example sidestep-localize run.rawlog -o out");

@@ -253,7 +253,7 @@ void Run::complain() const {
 }
 
 ExitCode Run::go() {
-  folder_->writeConfiguration([this](ParamVisitor& v) { const_cast<PathConfig&>(config_).visit(v); });
+  folder_->writeConfiguration(fieldsOf(config_));
   const auto names = planners();
   for (const auto& word : globalPlanners())
     if (options_.all && std::find(names.begin(), names.end(), word) == names.end())
@@ -287,7 +287,7 @@ ExitCode Run::go() {
 ExitCode planPaths(const PathOptions& options) {
   const PathConfig config = effectivePathConfig(options);
   if (options.write_config) {
-    std::fputs(writeYaml([&](ParamVisitor& v) { const_cast<PathConfig&>(config).visit(v); }).c_str(), stdout);
+    std::fputs(writeYaml(fieldsOf(config)).c_str(), stdout);
     return ExitCode::kDone;
   }
   if (options.map.empty()) throw ConfigError("no --map given; for example --map office.yaml");

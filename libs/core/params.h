@@ -59,6 +59,12 @@ class ParamVisitor {
 /// A struct's fields, as a function that shows them to a visitor.
 using Visit = std::function<void(ParamVisitor&)>;
 
+/// The fields of a struct that must not change, for the writers: they are shown a copy.
+template <class Params>
+Visit fieldsOf(const Params& params) {
+  return [copy = params](ParamVisitor& v) mutable { copy.visit(v); };
+}
+
 /// Reads `file` into the fields; keys that the file leaves out keep their defaults.
 /// @throws ConfigError "file:line: key = value ..., allowed ..., did you mean ...?" for an unknown or repeated key, a
 ///         wrong type, a value that is not finite or out of range; DatasetError if the file cannot be read.

@@ -52,7 +52,7 @@ void limitMemory(size_t bytes) {
   setrlimit(RLIMIT_CORE, &no_core);
 }
 
-/// The child dies of a broken pipe if the parent does, and of its CPU limit if it loops; so it needs no parent-death
+/// The child dies of a broken pipe if the parent does, and of its CPU limit if it loops. It needs no parent-death
 /// signal, which would also fire when only the thread that opened the log ends. Ctrl-C is the parent's to handle.
 void resetSignals() {
   for (const int signal : {SIGPIPE, SIGPROF, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGCHLD})
@@ -106,7 +106,7 @@ class RecordSink {
     while (n > 0) {
       const ssize_t done = write(kPipe, at, n);
       if (done < 0 && errno == EINTR) continue;
-      if (done < 0) _exit(0);  // nobody listens any more
+      if (done < 0) _exit(0);  // the reader has closed the pipe
       at += done;
       n -= static_cast<size_t>(done);
     }
@@ -119,13 +119,13 @@ std::unique_ptr<ByteSource> openSource(const DecodeRange& range) {
   return std::make_unique<GzipSource>(kFile);
 }
 
-/// Decodes until the end; an exception leaves from here.
+/// Decodes until the end of the source. @throws what MRPT throws on damage
 void decodeObjects(ByteSource& source, RecordingArchive& archive, RecordSink& sink, double seconds) {
   for (;;) {
     setCpuLimit(seconds);
     if (!archive.startObject()) return;
     archive.ReadObject();
-    setCpuLimit(0);  // the wait for the reader is not the file's fault
+    setCpuLimit(0);  // waiting for the reader does not count
     sink.put(RecordKind::kObject, source.consumed(), archive.bytes().data(), archive.bytes().size());
   }
 }

@@ -9,8 +9,8 @@
 #include "datasets/ground_truth.h"
 #include "evaluation/metrics/trajectory_error.h"
 #include "figures/trajectory_figure.h"
+#include "localization/configuration.h"
 #include "localization/localizer.h"
-#include "sidestep-localize/localize_config.h"
 
 namespace sidestep {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sidestep-localize/side_files.h"
+#include "evaluation/metrics/side_files.h"
 
 #include <algorithm>
 #include <array>

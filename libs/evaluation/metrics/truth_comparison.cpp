@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sidestep-localize/truth_comparison.h"
+#include "evaluation/metrics/truth_comparison.h"
 
 #include <mrpt/poses/CPose2D.h>
 
