@@ -142,6 +142,10 @@ void Evaluation::save() {
   const auto consistency = consistencyOf(lines_);
   if (!consistency.empty()) folder_.writeText("consistency.csv", consistencyCsv(consistency));
   const auto figures = drawStudy(study_, lines_, medianLines(study_, quantiles), folder_.file(""));
+  for (const auto& figure : figures)
+    if (!figure.failure.empty())
+      std::fprintf(stderr, "sidestep-evaluate: %s: could not be drawn: %s\n", figure.file.c_str(),
+                   figure.failure.c_str());
   ReportFacts f = facts();
   f.more_tables = quantilesHtml(study_, quantiles) + consistencyHtml(consistency);
   folder_.writeText("report.html", reportHtml(study_, lines_, expectations_, figures, folder_.file(""), f));

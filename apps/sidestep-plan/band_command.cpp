@@ -7,11 +7,11 @@
 #include <cstdio>
 
 #include "common/program.h"
-#include "sidestep-plan/band_picture.h"
-#include "sidestep-plan/band_run.h"
+#include "evaluation/batch/thread_pool.h"
+#include "evaluation/experiments/band_benchmark.h"
+#include "figures/band_figure.h"
+#include "planning/global/way_exists.h"
 #include "sidestep-plan/commands.h"
-#include "sidestep-plan/thread_pool.h"
-#include "sidestep-plan/way_exists.h"
 
 namespace sidestep {
 namespace {
@@ -30,7 +30,7 @@ double nowMs(bool one_thread) {
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
-std::string csvLine(const BandRow& r, const std::string& planner) {
+std::string csvLine(const BandResult& r, const std::string& planner) {
   std::string line = std::to_string(r.n_obs) + "," + std::to_string(r.seed) + "," + planner + "," + r.status;
   char text[400];
   std::snprintf(text, sizeof text, ",%.4f,%.4f,%d,%.4f,%.4f,%.5f,%.5f,%.5f,%.5f,%.4f", r.time_ms, r.warm_ms, r.poses,
@@ -47,14 +47,14 @@ double median(std::vector<double> values) {
 }
 
 /// Medians by number of obstacles, as JSON and as a table on stdout.
-std::string summary(const std::vector<BandRow>& rows, const std::string& planner) {
-  std::map<int, std::vector<BandRow>> groups;
+std::string summary(const std::vector<BandResult>& rows, const std::string& planner) {
+  std::map<int, std::vector<BandResult>> groups;
   for (const auto& r : rows) groups[r.n_obs].push_back(r);
   std::string json = "{\n  \"planner\": \"" + planner + "\"";
   std::printf("%s: medians\n  n_obs problems clear  cold ms  warm ms  transition s  largest a  largest alpha\n",
               planner.c_str());
   for (const auto& [n, group] : groups) {
-    const auto of = [&group = group](double BandRow::*field) {
+    const auto of = [&group = group](double BandResult::*field) {
       std::vector<double> out;
       for (const auto& r : group) out.push_back(r.*field);
       return out;
@@ -62,31 +62,32 @@ std::string summary(const std::vector<BandRow>& rows, const std::string& planner
     const auto most = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
     const auto clear = std::count_if(group.begin(), group.end(), [](const auto& r) { return r.status == "clear"; });
     std::printf("  %5d %8zu %5td %8.3f %8.3f %13.2f %10.4f %14.4f\n", n, group.size(), clear,
-                median(of(&BandRow::time_ms)), median(of(&BandRow::warm_ms)), median(of(&BandRow::transition_s)),
-                most(of(&BandRow::max_a)), most(of(&BandRow::max_alpha)));
+                median(of(&BandResult::time_ms)), median(of(&BandResult::warm_ms)),
+                median(of(&BandResult::transition_s)), most(of(&BandResult::max_a)), most(of(&BandResult::max_alpha)));
     const auto ways = std::count_if(group.begin(), group.end(), [](const auto& r) { return r.way_exists == "yes"; });
     if (!group.front().way_exists.empty())
       std::printf("        a way exists in %td; shortest way without bends, median %.2f s\n", ways,
-                  median(of(&BandRow::least_s)));
+                  median(of(&BandResult::least_s)));
     char text[400];
     std::snprintf(text, sizeof text,
                   ",\n  \"%d\": {\"problems\": %zu, \"clear\": %td, \"time_ms\": %.4f, \"warm_ms\": %.4f, "
                   "\"transition_s\": %.4f}",
-                  n, group.size(), clear, median(of(&BandRow::time_ms)), median(of(&BandRow::warm_ms)),
-                  median(of(&BandRow::transition_s)));
+                  n, group.size(), clear, median(of(&BandResult::time_ms)), median(of(&BandResult::warm_ms)),
+                  median(of(&BandResult::transition_s)));
     json += text;
   }
   return json + "\n}\n";
 }
 
-void verify(const BandProblemCase& problem, const BandRun& run, BandRow& row) {
-  const WayVerdict way = run.moving ? movingWay(problem, run.robot) : standingWay(problem, run.robot);
+void verify(const PlanningProblem& problem, const BandBenchmark& run, BandResult& row) {
+  const WayVerdict way =
+      run.moving ? movingWay(problem.obstacles, run.robot) : standingWay(problem.obstacles, run.robot);
   row.way_exists = way.exists;
   row.least_s = way.least_s;
 }
 
 /// Each candidate of a cold plan with the cost of each term, and why it was not chosen; a header before the first.
-std::string candidateLines(const BandProblemCase& p, const PlanOutput& out, bool header) {
+std::string candidateLines(const PlanningProblem& p, const PlanOutput& out, bool header) {
   std::string lines;
   const auto add = [&lines](double value) { lines += ',' + shortestNumber(value); };
   if (header && !out.candidates.empty()) {
@@ -104,6 +105,18 @@ std::string candidateLines(const BandProblemCase& p, const PlanOutput& out, bool
     lines += "\n";
   }
   return lines;
+}
+
+BandFigure::Panel panelOf(const PlanningProblem& problem, const BandPlanner& planner) {
+  BandFigure::Panel panel;
+  panel.title = std::to_string(problem.n_obs) + " obstacles, seed " + std::to_string(problem.seed);
+  for (const auto& o : problem.obstacles) panel.obstacles.push_back(o.position);
+  for (const auto& c : planner.candidates()) {
+    if (!c.alive) continue;
+    auto& line = (c.chosen ? panel.chosen : panel.others).emplace_back();
+    for (const auto& p : c.band) line.emplace_back(p.x, p.y);
+  }
+  return panel;
 }
 
 ExitCode runBand(const Options& o) {
@@ -127,35 +140,36 @@ ExitCode runBand(const Options& o) {
   BandPlanner planner(params);
   if (o.threads > 1) planner.useThreads([&](int n, const auto& f) { pool.run(n, f); });
   const bool one = o.threads == 1;
-  BandPicture picture;
+  BandFigure picture;
+  picture.radius_m = robot.radius_m;
   std::string explained;
   const size_t apart = std::max<size_t>(problems.size() / 9, 1);  // nine of them, evenly chosen
-  BandRun run{robot, o.moving, o.repeats, 50, [one] { return nowMs(one); }, {}, {}};
+  BandBenchmark run{robot, o.moving, o.repeats, 50, [one] { return nowMs(one); }, {}, {}};
   if (o.picture)
-    run.planned_cold = [&](const BandProblemCase& p, const BandPlanner& bands) {
-      if (static_cast<size_t>(&p - problems.data()) % apart == 0 && !picture.full())
-        picture.add(p, bands, robot.radius_m);
+    run.planned_cold = [&](const PlanningProblem& p, const BandPlanner& bands) {
+      if (static_cast<size_t>(&p - problems.data()) % apart == 0 && picture.panels.size() < 9)
+        picture.panels.push_back(panelOf(p, bands));
     };
   planner.explain(o.explain);
   if (o.explain)
-    run.explained = [&](const BandProblemCase& p, const PlanOutput& out) {
+    run.explained = [&](const PlanningProblem& p, const PlanOutput& out) {
       explained += candidateLines(p, out, explained.empty());
     };
   ProgressBar bar("band", o.quiet);
   std::string csv =
       "n_obs,seed,planner,status,time_ms,warm_ms,poses,transition_s,min_dist_m,max_v,max_w,max_a,max_alpha,cost";
   csv += o.verify ? ",way_exists,least_s\n" : "\n";
-  std::vector<BandRow> rows;
+  std::vector<BandResult> rows;
   for (const auto& problem : problems) {
     if (interrupted()) break;
-    rows.push_back(runBandProblem(problem, run, planner));
+    rows.push_back(benchmarkBand(problem, run, planner));
     if (o.verify) verify(problem, run, rows.back());
     csv += csvLine(rows.back(), o.planner);
     bar.update(static_cast<double>(rows.size()) / static_cast<double>(problems.size()));
   }
   folder.writeText("results.csv", csv);
   if (o.explain) folder.writeText("candidates.csv", explained);
-  if (o.picture) picture.write(folder.file("bands.png"));
+  if (o.picture) drawBands(picture, folder.file("bands.png"));
   if (!rows.empty()) folder.writeText("metrics.json", summary(rows, o.planner));
   return rows.size() < problems.size() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
@@ -164,7 +178,7 @@ ExitCode runBand(const Options& o) {
 
 void addBandCommand(CLI::App& app, Work& work) {
   auto o = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand("band", "solve a file of problems with a timed elastic band, and time it");
+  CLI::App* sub = app.add_subcommand("band", "benchmark timed elastic bands on a CSV of problems");
   sub->add_option("--problems", o->problems, "n_obs,seed,i,x,y,vx,vy: point obstacles between (0,0,0) and (8,0)")
       ->type_name("FILE");
   sub->add_option("--planner", o->planner, "teb, pteb, eteb, eteb-printed, pteb+eteb")

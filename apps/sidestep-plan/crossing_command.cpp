@@ -5,10 +5,10 @@
 #include <cstdio>
 
 #include "common/program.h"
+#include "evaluation/batch/thread_pool.h"
+#include "evaluation/experiments/crossing_run.h"
 #include "planning/band/band_planner.h"
 #include "sidestep-plan/commands.h"
-#include "sidestep-plan/crossing_run.h"
-#include "sidestep-plan/thread_pool.h"
 
 namespace sidestep {
 namespace {

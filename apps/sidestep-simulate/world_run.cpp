@@ -13,9 +13,10 @@
 #include "datasets/log_writer.h"
 #include "evaluation/experiments/plan_explanation.h"
 #include "evaluation/experiments/plan_snapshots.h"
-#include "evaluation/experiments/timeline_figure.h"
 #include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
+#include "evaluation/metrics/collision_index.h"
+#include "figures/timeline_figure.h"
 #include "figures/world_figure.h"
 #include "simulation/world_observations.h"
 
@@ -119,7 +120,8 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
   if (options.explain) folder.writeText("explain.csv", explanation.csv());
   if (!options.no_picture) {
     drawWorld(recorder.figure(), folder.file("trajectory.png"));
-    drawTimeline({recorder.figure().title, {{"", recorder.timeline()}}}, folder.file("timeline.png"));
+    drawTimeline({recorder.figure().title, kCollisionIndexThreshold, {{"", recorder.timeline()}}},
+                 folder.file("timeline.png"));
   }
   if (options.video) film(recorder.figure(), folder);
   if (!options.snapshots_s.empty() && !interrupted()) drawSnapshotsOf(options, config, inputs, world, folder);

@@ -38,8 +38,8 @@ struct SharedBatch {
   char data[kCapacity];
 };
 
-/// Main function of the decoding child: decodes all objects of `fd`, sends each that decoded, then the end or the reason.
-/// Memory and CPU time are bounded; a file that makes MRPT exceed that kills this process only.
+/// Main function of the decoding child: decodes all objects of `fd`, sends each that decoded, then the end or the
+/// reason. Memory and CPU time are bounded; a file that makes MRPT exceed that kills this process only.
 [[noreturn]] void runDecoderChild(int fd, int pipe_fd, SharedBatch& batch, const DecodeRange& range,
                                   const DecodeLimits& limits);
 

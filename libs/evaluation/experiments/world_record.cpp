@@ -70,7 +70,7 @@ void WorldRecorder::notePlaces() {
   for (const Person& p : world_.people())
     figure_.paths[k++].places.push_back(p.present ? p.position : TPoint2D(kNowhere, kNowhere));
   const RobotState& robot = world_.underTest();
-  timeline_.push_back({world_.time(), clearance_m_, robot.twist.vx, robot.twist.omega, index_});
+  timeline_.push_back({world_.time(), deltaMin(clearance_m_), robot.twist.vx, robot.twist.omega, index_});
   index_ = 0;
   clearance_m_ = std::numeric_limits<double>::infinity();
 }

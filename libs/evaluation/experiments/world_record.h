@@ -4,19 +4,11 @@
 #include <limits>
 #include <vector>
 
+#include "figures/timeline_figure.h"
 #include "figures/world_figure.h"
 #include "simulation/world.h"
 
 namespace sidestep {
-
-/// The robot under test at one time.
-struct TimelineSample {
-  double time_s = 0;
-  double clearance_m =
-      std::numeric_limits<double>::infinity();  ///< to people and robots, least since the sample before
-  double v = 0, w = 0;                          ///< over the ground [m/s], [rad/s]
-  double collision_index = 0;                   ///< (4.11), largest since the sample before
-};
 
 /// delta_min(t) of (4.6): 1 at contact, towards 0 far away.
 /// @param clearance_m  between the rims; overlap counts as contact, infinity gives 0
@@ -33,7 +25,7 @@ class WorldRecorder {
   const WorldFigure& figure() const { return figure_; }
   WorldFigure& figure() { return figure_; }
   /// Every `figure().period_s`.
-  const std::vector<TimelineSample>& timeline() const { return timeline_; }
+  const std::vector<TimelineFigure::Sample>& timeline() const { return timeline_; }
   /// Largest collision index (4.11) so far, over people and other robots, at each step.
   double largestCollisionIndex() const { return largest_index_; }
   /// Time for which it was above the threshold. [s]
@@ -47,7 +39,7 @@ class WorldRecorder {
 
   const World& world_;
   WorldFigure figure_;
-  std::vector<TimelineSample> timeline_;
+  std::vector<TimelineFigure::Sample> timeline_;
   double next_s_ = 0, clearance_m_ = std::numeric_limits<double>::infinity();
   double largest_index_ = 0, index_ = 0, above_s_ = 0, standing_s_ = 0;
 };

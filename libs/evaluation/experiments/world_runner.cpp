@@ -13,12 +13,12 @@
 #include "core/overlay_yaml.h"
 #include "core/random.h"
 #include "evaluation/experiments/scenario.h"
-#include "evaluation/experiments/timeline_figure.h"
 #include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/experiments/world_scenario.h"
 #include "evaluation/metrics/collision_index.h"
 #include "evaluation/study/study.h"
+#include "figures/timeline_figure.h"
 
 namespace sidestep {
 namespace {
@@ -255,6 +255,7 @@ bool WorldRunner::drawTogether(const std::vector<StudyPlace>& places, const std:
                                const std::string& title, const std::string& png_file) const {
   TimelineFigure figure;
   figure.title = title;
+  figure.index_threshold = kCollisionIndexThreshold;
   for (size_t i = 0; i < places.size(); ++i) {
     const WatchedRun run = runOf(scenarios_[places[i].scenario], axes_[places[i].scenario], places[i]);
     figure.runs.push_back({names[i], run.recorder.timeline()});

@@ -8,6 +8,47 @@
 #include <cstdio>
 
 namespace sidestep {
+namespace {
+
+constexpr size_t kMostBlocks = 40;
+
+std::string ending(const std::string& verdict) { return verdict.empty() ? "" : ": " + verdict; }
+
+ConsistencyFigure::Panel neesPanel(const NormalizedErrors& errors, const std::string& verdict) {
+  const auto& kept = errors.kept();
+  ConsistencyFigure::Panel out;
+  out.title = "NEES, " + std::to_string(errors.dof()) + " degrees of freedom" + ending(verdict);
+  out.expected = errors.dof();
+  for (const auto& s : kept) out.values.push_back({s.time_s, s.nees(), true});
+  const double n_eff_share = errors.effectiveCount() / static_cast<double>(kept.size());
+  const size_t size = std::max<size_t>(1, (kept.size() + kMostBlocks - 1) / kMostBlocks);
+  for (size_t from = 0; from < kept.size(); from += size) {
+    const size_t to = std::min(kept.size(), from + size);
+    double sum = 0;
+    for (size_t i = from; i < to; ++i) sum += kept[i].nees();
+    const double n = static_cast<double>(to - from);
+    const auto band = neesBand(std::max(1.0, n * n_eff_share), errors.dof());
+    out.means.push_back({0.5 * (kept[from].time_s + kept[to - 1].time_s), sum / n, band.low, band.high});
+  }
+  return out;
+}
+
+/// @param n_eff_share  effective samples by measurements
+ConsistencyFigure::Panel nisPanel(const std::string& label, const NisTrack& track, double gate_probability,
+                                  double n_eff_share, const std::string& verdict) {
+  ConsistencyFigure::Panel out;
+  out.title = "NIS of " + label + ", " + std::to_string(track.dof()) +
+              (track.dof() == 1 ? " degree of freedom" : " degrees of freedom") + ending(verdict);
+  out.expected = nisBand(100, track.dof(), gate_probability).expected;
+  out.values = track.points();
+  for (const auto& b : track.blocks()) {
+    const auto band = nisBand(static_cast<double>(b.count) * n_eff_share, track.dof(), gate_probability);
+    out.means.push_back({0.5 * (b.from_s + b.to_s), b.sum / static_cast<double>(b.count), band.low, band.high});
+  }
+  return out;
+}
+
+}  // namespace
 
 void LostFile::write(const Estimate& e) {
   if (!e.lost_probability) return;
@@ -52,17 +93,17 @@ void InnovationLog::take(Localizer& localizer) {
 
 ConsistencyFigure InnovationLog::figure(const LocalizationMetrics& metrics, double gate_probability) const {
   ConsistencyFigure out;
-  if (metrics.estimate) {
-    out.errors = metrics.estimate->nees;
-    out.verdict = metrics.estimate->consistency ? metrics.estimate->consistency->verdict
-                                                : "not judged, the estimate was laid onto the truth";
+  if (metrics.estimate && !metrics.estimate->nees.kept().empty()) {
+    const auto& c = metrics.estimate->consistency;
+    out.panels.push_back(
+        neesPanel(metrics.estimate->nees, c ? c->verdict : "not judged, the estimate was laid onto the truth"));
   }
   for (const auto& [label, track] : tracks_) {
     const auto it = metrics.sensors.find(label);
-    if (it == metrics.sensors.end() || it->second.used == 0) continue;
+    if (it == metrics.sensors.end() || it->second.used == 0 || track.blocks().empty()) continue;
     const double share = it->second.nis_independent / static_cast<double>(it->second.used);
-    out.sensors.push_back({label, track, share < 0.999 ? 1 : gate_probability, std::min(1.0, share),
-                           it->second.consistency ? it->second.consistency->verdict : ""});
+    out.panels.push_back(nisPanel(label, track, share < 0.999 ? 1 : gate_probability, std::min(1.0, share),
+                                  it->second.consistency ? it->second.consistency->verdict : ""));
   }
   return out;
 }

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "evaluation/experiments/consistency_figure.h"
 #include "evaluation/metrics/metrics_json.h"
+#include "figures/consistency_figure.h"
 #include "localization/localizer.h"
 
 namespace sidestep {

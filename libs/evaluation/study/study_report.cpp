@@ -73,6 +73,9 @@ std::string expectationTable(const std::vector<ExpectationResult>& expectations)
 }
 
 std::string figureHtml(const StudyFigure& figure, const std::string& folder) {
+  if (!figure.failure.empty())
+    return "<h3>" + htmlEscaped(figure.title) +
+           "</h3>\n<p class=\"bad\">could not be drawn: " + htmlEscaped(figure.failure) + "</p>\n";
   std::ifstream in(std::filesystem::path(folder) / figure.file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   std::string out = "<h3>" + htmlEscaped(figure.title) + "</h3>\n<img alt=\"" + htmlEscaped(figure.title) +

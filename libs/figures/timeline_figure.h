@@ -4,17 +4,22 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/experiments/world_record.h"
-
 namespace sidestep {
 
-/// The first robot's runs over time, as figures 4.6, 4.7, 4.15 and 4.20 of the dissertation show them.
+/// Runs of a robot over time, as figures 4.6, 4.7, 4.15 and 4.20 of the dissertation show them.
 struct TimelineFigure {
+  struct Sample {
+    double time_s = 0;
+    double delta_min = 0;        ///< (4.6), largest since the sample before
+    double v = 0, w = 0;         ///< over the ground [m/s], [rad/s]
+    double collision_index = 0;  ///< (4.11), largest since the sample before
+  };
   struct Run {
     std::string name;  ///< for the key; with one run only there is none
-    std::vector<TimelineSample> samples;
+    std::vector<Sample> samples;
   };
   std::string title;
+  double index_threshold = 0;  ///< above it the collision index counts as a collision
   std::vector<Run> runs;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sidestep-plan/crossing_run.h"
+#include "evaluation/experiments/crossing_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ bool inside(const mrpt::math::TTwist2D& c, const mrpt::math::TTwist2D& now, cons
 
 }  // namespace
 
-CrossingRow runCrossing(const BandProblemCase& problem, const CrossingRun& run, LocalPlanner& planner) {
+CrossingRow runCrossing(const PlanningProblem& problem, const CrossingRun& run, LocalPlanner& planner) {
   CrossingRow row{problem.seed, "timeout", run.time_max_s, 1e9, {}};
   MotionPredictor predictor(run.predictor);
   std::vector<MovingObstacle> seen, people = problem.obstacles;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sidestep-plan/thread_pool.h"
+#include "evaluation/batch/thread_pool.h"
 
 namespace sidestep {
 

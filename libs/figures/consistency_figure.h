@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/metrics/normalized_errors.h"
-
 namespace sidestep {
 
 /// NIS of one sensor along a run, in bounded memory: points for the eye, thinned evenly, and means over blocks.
@@ -34,24 +32,25 @@ class NisTrack {
   int dof_ = 0;
 };
 
-/// consistency.png: NEES over time where there is truth, NIS of each sensor over time; single values, means over
-/// blocks, and the 95 % band in which those of a consistent filter lie.
+/// consistency.png: NEES where there is truth and NIS of each sensor over time, a panel each: single values, means over
+/// blocks, and the 95 % interval in which those of a consistent filter lie.
 struct ConsistencyFigure {
-  struct Sensor {
-    std::string label;
-    NisTrack track;
-    double gate_probability = 1;
-    double independent = 1;  ///< share of the measurements that are worth one of their own
-    std::string verdict;
+  struct Mean {
+    double time_s = 0, mean = 0;
+    double low = 0, high = 0;  ///< the 95 % interval
+  };
+  struct Panel {
+    std::string title;
+    double expected = 1;  ///< mean of a consistent filter
+    std::vector<NisTrack::Point> values;
+    std::vector<Mean> means;
   };
   std::string title;
   double start_s = 0;  ///< taken from all times
-  NormalizedErrors errors;
-  std::string verdict;  ///< of the errors
-  std::vector<Sensor> sensors;
+  std::vector<Panel> panels;
 };
 
-/// Draws nothing, and returns false, if there is nothing to draw.
+/// Draws nothing, and returns false, if there is no panel.
 /// @throws Error if gnuplot fails.
 bool drawConsistency(const ConsistencyFigure& figure, const std::string& png_file);
 

@@ -4,13 +4,13 @@
 #include <functional>
 #include <map>
 
+#include "datasets/problem_file.h"
 #include "planning/band/band_planner.h"
-#include "sidestep-plan/problem_file.h"
 
 namespace sidestep {
 
 /// A row of results.csv.
-struct BandRow {
+struct BandResult {
   int n_obs = 0, seed = 0;
   std::string status;  ///< clear, contact, none
   double time_ms = 0, warm_ms = 0;
@@ -21,18 +21,18 @@ struct BandRow {
   double least_s = 0;
 };
 
-/// One problem of a band: start (0, 0, 0) at rest, goal (8, 0), point obstacles.
-struct BandRun {
+/// How a problem is solved: start (0, 0, 0) at rest, goal (8, 0), point obstacles.
+struct BandBenchmark {
   RobotLimits robot;
   bool moving = false;
   int repeats = 5, replans = 50;
   std::function<double()> cpu_ms;  ///< a clock
-  std::function<void(const BandProblemCase&, const BandPlanner&)>
+  std::function<void(const PlanningProblem&, const BandPlanner&)>
       planned_cold;                                                          ///< told after the cold plan; may be empty
-  std::function<void(const BandProblemCase&, const PlanOutput&)> explained;  ///< the same
+  std::function<void(const PlanningProblem&, const PlanOutput&)> explained;  ///< the same
 };
 
 /// Plans cold `repeats` times, then `replans` times while the robot drives what was ordered and obstacles move on.
-BandRow runBandProblem(const BandProblemCase& problem, const BandRun& run, BandPlanner& planner);
+BandResult benchmarkBand(const PlanningProblem& problem, const BandBenchmark& run, BandPlanner& planner);
 
 }  // namespace sidestep

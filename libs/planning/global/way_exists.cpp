@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sidestep-plan/way_exists.h"
+#include "planning/global/way_exists.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +63,7 @@ class Places {
 };
 
 /// First time at which a disc that keeps off by `clearance` can be at the goal, 0 if never.
-double firstArrival(const BandProblemCase& problem, double v_max, double clearance) {
+double firstArrival(std::span<const MovingObstacle> obstacles, double v_max, double clearance) {
   constexpr double kLongest_s = 60;
   const double step = 2 * Places::kCell_m / v_max;
   Places now;
@@ -71,7 +71,7 @@ double firstArrival(const BandProblemCase& problem, double v_max, double clearan
   for (double t = step; t < kLongest_s; t += step) {
     Places next;
     next.spreadFrom(now);
-    for (const auto& o : problem.obstacles) {
+    for (const auto& o : obstacles) {
       const auto p = o.position + o.velocity * t;
       if (std::abs(p.y) < 2 * kAround_m && std::abs(p.x - kGoal_m / 2) < 2 * kAround_m)
         next.takeOut(p.x, p.y, clearance + o.radius_m);
@@ -84,14 +84,14 @@ double firstArrival(const BandProblemCase& problem, double v_max, double clearan
 
 }  // namespace
 
-WayVerdict standingWay(const BandProblemCase& problem, const RobotLimits& robot) {
+WayVerdict standingWay(std::span<const MovingObstacle> obstacles, const RobotLimits& robot) {
   GridFrame frame;
   frame.resolution_m = 0.025;
   frame.width = static_cast<int>((kGoal_m + kAround_m) / frame.resolution_m);
   frame.height = static_cast<int>(2 * kAround_m / frame.resolution_m);
   frame.T_map_grid = {-kAround_m / 2, -kAround_m, 0};
   std::vector<uint8_t> blocked(static_cast<size_t>(frame.width) * static_cast<size_t>(frame.height));
-  for (const auto& o : problem.obstacles) {
+  for (const auto& o : obstacles) {
     const double x = (o.position.x - frame.T_map_grid.x) / frame.resolution_m;
     const double y = (o.position.y - frame.T_map_grid.y) / frame.resolution_m;
     if (x >= 0 && y >= 0 && x < frame.width && y < frame.height)
@@ -104,12 +104,12 @@ WayVerdict standingWay(const BandProblemCase& problem, const RobotLimits& robot)
   return {"yes", SpeedProfile(pathLength(path.poses), 0, robot, true).duration()};
 }
 
-WayVerdict movingWay(const BandProblemCase& problem, const RobotLimits& robot) {
+WayVerdict movingWay(std::span<const MovingObstacle> obstacles, const RobotLimits& robot) {
   const double straight = SpeedProfile(kGoal_m, 0, robot, true).duration();
   const double off_centre = Places::kCell_m * M_SQRT1_2;  // the disc may be anywhere in its cell
-  const double at_best = firstArrival(problem, robot.v_max, robot.radius_m - off_centre);
+  const double at_best = firstArrival(obstacles, robot.v_max, robot.radius_m - off_centre);
   if (at_best <= 0) return {"no", 0};
-  const bool sure = firstArrival(problem, robot.v_max, robot.radius_m) > 0;
+  const bool sure = firstArrival(obstacles, robot.v_max, robot.radius_m) > 0;
   return {sure ? "yes" : "unsure", std::max(at_best, straight)};
 }
 

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation/experiments/consistency_figure.h"
+#include "figures/consistency_figure.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/params.h"
-#include "evaluation/metrics/consistency.h"
 #include "figures/gnuplot.h"
 
 namespace sidestep {
@@ -23,66 +22,31 @@ void addRow(std::string& out, std::initializer_list<double> values) {
   out += '\n';
 }
 
-struct Panel {
-  std::string title;
-  double expected = 1;
-  std::string accepted, refused;  ///< rows: time, value
-  std::string means;              ///< rows: time, mean, low, high
+/// What gnuplot reads of one panel.
+struct Rows {
+  std::string accepted, refused;  ///< time, value
+  std::string means;              ///< time, mean, low, high
   double low = 0.05, high = 20;   ///< of the axis
+
+  Rows(const ConsistencyFigure::Panel& panel, double start_s) {
+    for (const auto& p : panel.values) {
+      addRow(p.accepted ? accepted : refused, {p.time_s - start_s, p.value});
+      see(p.value);
+    }
+    for (const auto& m : panel.means) {
+      addRow(means, {m.time_s - start_s, m.mean, std::max(m.low, 1e-3), m.high});
+      see(m.mean);
+      see(m.high);
+    }
+  }
   void see(double value) {
     if (value > 0) low = std::min(low, std::max(value, 0.01)), high = std::max(high, std::min(value, 1e4));
   }
-  void addMean(double time_s, double mean, const ConsistencyBand& band) {
-    addRow(means, {time_s, mean, std::max(band.low, 1e-3), band.high});
-    see(mean);
-    see(band.high);
-  }
 };
-
-Panel neesPanel(const ConsistencyFigure& figure) {
-  const auto& kept = figure.errors.kept();
-  Panel p;
-  p.title = "NEES, " + std::to_string(figure.errors.dof()) + " degrees of freedom" +
-            (figure.verdict.empty() ? "" : ": " + figure.verdict);
-  p.expected = figure.errors.dof();
-  for (const auto& s : kept) {
-    addRow(p.accepted, {s.time_s - figure.start_s, s.nees()});
-    p.see(s.nees());
-  }
-  const double worth = figure.errors.effectiveCount() / static_cast<double>(kept.size());
-  const size_t size = std::max<size_t>(1, (kept.size() + kMostBlocks - 1) / kMostBlocks);
-  for (size_t from = 0; from < kept.size(); from += size) {
-    const size_t to = std::min(kept.size(), from + size);
-    double sum = 0;
-    for (size_t i = from; i < to; ++i) sum += kept[i].nees();
-    const double n = static_cast<double>(to - from);
-    p.addMean(0.5 * (kept[from].time_s + kept[to - 1].time_s) - figure.start_s, sum / n,
-              neesBand(std::max(1.0, n * worth), figure.errors.dof()));
-  }
-  return p;
-}
-
-Panel nisPanel(const ConsistencyFigure::Sensor& sensor, double start_s) {
-  Panel p;
-  const auto& track = sensor.track;
-  p.title = "NIS of " + sensor.label + ", " + std::to_string(track.dof()) +
-            (track.dof() == 1 ? " degree of freedom" : " degrees of freedom") +
-            (sensor.verdict.empty() ? "" : ": " + sensor.verdict);
-  p.expected = nisBand(100, track.dof(), sensor.gate_probability).expected;
-  for (const auto& point : track.points()) {
-    addRow(point.accepted ? p.accepted : p.refused, {point.time_s - start_s, point.value});
-    p.see(point.value);
-  }
-  for (const auto& b : track.blocks()) {
-    const auto band = nisBand(static_cast<double>(b.count) * sensor.independent, track.dof(), sensor.gate_probability);
-    p.addMean(0.5 * (b.from_s + b.to_s) - start_s, b.sum / static_cast<double>(b.count), band);
-  }
-  return p;
-}
 
 std::string blockOf(const std::string& name, const std::string& rows) { return name + " << EOD\n" + rows + "EOD\n"; }
 
-std::string panelScript(const Panel& p, size_t number, bool last) {
+std::string panelScript(const ConsistencyFigure::Panel& panel, const Rows& p, size_t number, bool last) {
   const std::string a = "$a" + std::to_string(number), r = "$r" + std::to_string(number),
                     m = "$m" + std::to_string(number);
   std::string out, plots;
@@ -91,10 +55,10 @@ std::string panelScript(const Panel& p, size_t number, bool last) {
         m + " using 1:3:4 with filledcurves fs solid 0.25 noborder lc rgb '#0072b2' title '95 % band of the means', ";
   if (!p.accepted.empty()) plots += a + " using 1:2 with points pt 7 ps 0.3 lc rgb '#a8a8a8' title 'single values', ";
   if (!p.refused.empty()) plots += r + " using 1:2 with points pt 2 ps 0.6 lc rgb '#d55e00' title 'refused', ";
-  plots += shortestNumber(p.expected) + " with lines lw 1.5 dt (8,6) lc rgb '#000000' title 'expected'";
+  plots += shortestNumber(panel.expected) + " with lines lw 1.5 dt (8,6) lc rgb '#000000' title 'expected'";
   if (!p.means.empty())
     plots += ", " + m + " using 1:2 with linespoints lw 2 pt 7 ps 0.6 lc rgb '#0072b2' title 'means of blocks'";
-  out += "set title " + gnuplotQuoted(p.title) + " noenhanced font ',12'\n";
+  out += "set title " + gnuplotQuoted(panel.title) + " noenhanced font ',12'\n";
   out += "set yrange [" + shortestNumber(0.7 * p.low) + ":" + shortestNumber(1.5 * p.high) + "]\n";
   out += last ? "set xlabel 'time [s]'\n" : "unset xlabel\n";
   return out + "plot " + plots + "\n";
@@ -129,16 +93,15 @@ void NisTrack::add(double time_s, double nis, int dof, bool accepted) {
 }
 
 bool drawConsistency(const ConsistencyFigure& figure, const std::string& png_file) {
-  std::vector<Panel> panels;
-  if (!figure.errors.kept().empty()) panels.push_back(neesPanel(figure));
-  for (const auto& s : figure.sensors)
-    if (!s.track.blocks().empty()) panels.push_back(nisPanel(s, figure.start_s));
+  const auto& panels = figure.panels;
   if (panels.empty()) return false;
   const std::string count = std::to_string(panels.size());
+  std::vector<Rows> rows;
   std::string script;
   for (size_t i = 0; i < panels.size(); ++i) {
-    script += blockOf("$a" + std::to_string(i), panels[i].accepted) +
-              blockOf("$r" + std::to_string(i), panels[i].refused) + blockOf("$m" + std::to_string(i), panels[i].means);
+    const Rows& r = rows.emplace_back(panels[i], figure.start_s);
+    script += blockOf("$a" + std::to_string(i), r.accepted) + blockOf("$r" + std::to_string(i), r.refused) +
+              blockOf("$m" + std::to_string(i), r.means);
   }
   script +=
       "set terminal pngcairo noenhanced size 1100," + std::to_string(60 + 290 * panels.size()) +
@@ -147,7 +110,7 @@ bool drawConsistency(const ConsistencyFigure& figure, const std::string& png_fil
       " noenhanced font ',14'\nset border 3 lc rgb '#404040'\nset tics nomirror out\nset logscale y 10\nset lmargin 9\n"
       "set grid ytics back lt 1 lc rgb '#e4e4e4' lw 1\nset format y '%g'\n"
       "set key outside right top vertical Left reverse noenhanced samplen 2 spacing 1.2 width 1\n";
-  for (size_t i = 0; i < panels.size(); ++i) script += panelScript(panels[i], i, i + 1 == panels.size());
+  for (size_t i = 0; i < panels.size(); ++i) script += panelScript(panels[i], rows[i], i, i + 1 == panels.size());
   runGnuplot(script + "unset multiplot\nunset output\n", png_file);
   return true;
 }

@@ -3,9 +3,9 @@
 #pragma once
 #include <functional>
 
+#include "datasets/problem_file.h"
 #include "perception/motion_predictor.h"
 #include "planning/local_planner.h"
-#include "sidestep-plan/problem_file.h"
 
 namespace sidestep {
 
@@ -26,6 +26,6 @@ struct CrossingRun {
   double goal_m = 0.3, time_max_s = 60;
   std::function<double()> cpu_ms;
 };
-CrossingRow runCrossing(const BandProblemCase& problem, const CrossingRun& run, LocalPlanner& planner);
+CrossingRow runCrossing(const PlanningProblem& problem, const CrossingRun& run, LocalPlanner& planner);
 
 }  // namespace sidestep

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sidestep-plan/problem_file.h"
+#include "datasets/problem_file.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -29,7 +29,7 @@ std::vector<double> numbersIn(const std::string& line, size_t count) {
 
 }  // namespace
 
-std::vector<BandProblemCase> readProblems(const std::string& file, bool with_count, double radius_m) {
+std::vector<PlanningProblem> readProblems(const std::string& file, bool with_count, double radius_m) {
   std::ifstream in(file);
   if (!in) throw DatasetError::missing(file + ": cannot be read; --problems wants a CSV");
   const std::string header = with_count ? "n_obs,seed,i,x,y,vx,vy" : "seed,i,x,y,vx,vy";
@@ -37,7 +37,7 @@ std::vector<BandProblemCase> readProblems(const std::string& file, bool with_cou
   std::getline(in, line);
   if (!line.empty() && line.back() == '\r') line.pop_back();
   if (line != header) throw DatasetError::corrupt(file + ":1: the first line must be " + header);
-  std::vector<BandProblemCase> out;
+  std::vector<PlanningProblem> out;
   for (int number = 2; std::getline(in, line); ++number) {
     if (line.empty()) continue;
     const auto row = numbersIn(line, with_count ? 7 : 6);

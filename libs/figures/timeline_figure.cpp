@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation/experiments/timeline_figure.h"
+#include "figures/timeline_figure.h"
 
 #include <algorithm>
 
 #include "core/params.h"
-#include "evaluation/metrics/collision_index.h"
 #include "figures/gnuplot.h"
 
 namespace sidestep {
@@ -13,9 +12,8 @@ namespace {
 
 std::string block(const TimelineFigure::Run& run, size_t number) {
   std::string out = "$r" + std::to_string(number) + " << EOD\n";
-  for (const TimelineSample& s : run.samples) {
-    for (const double value : {s.time_s, deltaMin(s.clearance_m), s.v, s.w, s.collision_index})
-      out += shortestNumber(value) + " ";
+  for (const auto& s : run.samples) {
+    for (const double value : {s.time_s, s.delta_min, s.v, s.w, s.collision_index}) out += shortestNumber(value) + " ";
     out += "\n";
   }
   return out + "EOD\n";
@@ -50,8 +48,8 @@ void drawTimeline(const TimelineFigure& figure, const std::string& png_file) {
   script += panel(figure, "set ylabel 'δ_min (4.6)'\nset yrange [0:1.05]\n", 2, several);
   script += panel(figure,
                   "unset key\nset ylabel 'collision index (4.11)'\nset arrow 1 from graph 0, first " +
-                      shortestNumber(kCollisionIndexThreshold) + " to graph 1, first " +
-                      shortestNumber(kCollisionIndexThreshold) + " nohead dt 2 lw 1.5 lc rgb '#d62728'\n",
+                      shortestNumber(figure.index_threshold) + " to graph 1, first " +
+                      shortestNumber(figure.index_threshold) + " nohead dt 2 lw 1.5 lc rgb '#d62728'\n",
                   5, false);
   script += panel(figure, "unset arrow 1\nset ylabel 'speed [m/s]'\nset yrange [*<0:*]\n", 3, false);
   script += panel(figure, "set ylabel 'turn rate [rad/s]'\nset xlabel 'time [s]'\nset yrange [*:*]\n", 4, false);

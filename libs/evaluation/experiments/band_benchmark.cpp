@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sidestep-plan/band_run.h"
+#include "evaluation/experiments/band_benchmark.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ struct Scene {
   std::vector<mrpt::math::TPoint2D> points;
   std::vector<MovingObstacle> moving;
 
-  Scene(const BandProblemCase& problem, const BandRun& run) {
+  Scene(const PlanningProblem& problem, const BandBenchmark& run) {
     input.goal = {8, 0, 0};
     input.limits = run.robot;
     if (run.moving)
@@ -52,7 +52,7 @@ struct Scene {
 };
 
 /// Least distance between the robot's rim and an obstacle's along the band, where the obstacle is then.
-double leastDistance(const Band& band, const BandProblemCase& problem, const BandRun& run) {
+double leastDistance(const Band& band, const PlanningProblem& problem, const BandBenchmark& run) {
   constexpr double kStep_s = 0.02;
   double least = std::numeric_limits<double>::infinity();
   for (double t = 0; t <= band.back().t + kStep_s; t += kStep_s) {
@@ -65,7 +65,7 @@ double leastDistance(const Band& band, const BandProblemCase& problem, const Ban
   return least;
 }
 
-void describe(const BandCandidate& best, const BandProblemCase& problem, const BandRun& run, BandRow& row) {
+void describe(const BandCandidate& best, const PlanningProblem& problem, const BandBenchmark& run, BandResult& row) {
   const BandExtremes most = extremesOf(best.band, best.ends);
   row.poses = static_cast<int>(best.band.size());
   row.transition_s = best.band.back().t;
@@ -80,8 +80,8 @@ void describe(const BandCandidate& best, const BandProblemCase& problem, const B
 
 }  // namespace
 
-BandRow runBandProblem(const BandProblemCase& problem, const BandRun& run, BandPlanner& planner) {
-  BandRow row;
+BandResult benchmarkBand(const PlanningProblem& problem, const BandBenchmark& run, BandPlanner& planner) {
+  BandResult row;
   row.n_obs = problem.n_obs;
   row.seed = problem.seed;
   row.status = "none";

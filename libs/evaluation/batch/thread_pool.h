@@ -3,11 +3,10 @@
 #pragma once
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
-
-#include "planning/band/band_planner.h"
 
 namespace sidestep {
 
