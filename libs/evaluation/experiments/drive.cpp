@@ -13,11 +13,10 @@
 #include "core/errors.h"
 #include "datasets/kind_rules.h"
 #include "datasets/log_reader.h"
+#include "simulation/epoch.h"
 
 namespace sidestep {
 namespace {
-
-constexpr double kEpoch_s = 1e9;  // simulated time 0; stamps must be > 0
 
 /// Takes what is ready and lays it beside the truth, a pose an odometry reading.
 class SimulatedPairs {
@@ -78,7 +77,7 @@ class SimulatedReadings {
  private:
   template <class Observation>
   static Observation& at(Reading& reading, double time_s) {
-    reading.time_s = kEpoch_s + time_s;
+    reading.time_s = kSimulationStart_s + time_s;
     return static_cast<Observation&>(*reading.observation);
   }
   const Reading& imu(const SensorStep& step) {
