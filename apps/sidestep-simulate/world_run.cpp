@@ -15,6 +15,8 @@
 #include "evaluation/experiments/plan_snapshots.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/metrics/collision_index.h"
+#include "evaluation/metrics/metric_json.h"
+#include "evaluation/metrics/world_metrics.h"
 #include "figures/timeline_figure.h"
 #include "figures/world_figure.h"
 #include "navigation/planner_driver.h"
@@ -25,8 +27,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 std::string metricsText(const SimulateConfig& config, const World& world, const WorldRecorder& recorder,
                         const Json& written) {
   const WorldSummary s = summarize(world);
@@ -34,22 +34,14 @@ std::string metricsText(const SimulateConfig& config, const World& world, const 
   for (const Contact& c : world.contacts(0).contacts())
     hits.push_back(
         {{"kind", word(c.kind)}, {"time_s", c.time_s}, {"other", c.other}, {"closing_speed", c.closing_speed}});
-  const Json json{{"kind", config.kind},
-                  {"seed", config.seed},
-                  {"success", s.success},
-                  {"arrived", s.arrived},
-                  {"goals_reached", s.goals_reached},
-                  {"time_s", s.time_s},
-                  {"path_m", s.path_m},
-                  {"average_velocity", s.average_velocity},
-                  {"min_clearance_m", finiteOrNull(s.min_clearance_m)},
-                  {"min_wall_clearance_m", finiteOrNull(s.min_wall_clearance_m)},
-                  {"delta_min", deltaMin(s.min_clearance_m)},
-                  {"collision_index_max", recorder.largestCollisionIndex()},
-                  {"contacts", s.contacts},
-                  {"hits", hits},
-                  {"observations", written},
-                  {"partial", interrupted()}};
+  Json json{{"kind", config.kind}, {"seed", config.seed}};
+  addMetrics(worldMetrics(),
+             {s, recorder.largestCollisionIndex(), recorder.timeAboveThreshold(), recorder.timeStanding(), 0, 0}, true,
+             json);
+  json["contacts"] = s.contacts;
+  json["hits"] = hits;
+  json["observations"] = written;
+  json["partial"] = interrupted();
   return json.dump(2) + "\n";
 }
 
