@@ -16,7 +16,7 @@ constexpr double kFound_m = 1;  ///< within it the robot knows where it is
 LaserNumbers measureTrial(const std::vector<LaserSample>& samples, double settle_s) {
   LaserNumbers out;
   DriveResult settled;
-  const double gaps = static_cast<double>(out.lost_gaps.size());
+  constexpr double gaps = LaserNumbers::kGaps;
   for (const auto& s : samples) {
     if (s.pair.time_s >= settle_s) settled.pairs.push_back(s.pair);
     out.final_error_m = std::hypot(s.pair.estimate.x - s.pair.truth.x, s.pair.estimate.y - s.pair.truth.y);
@@ -56,7 +56,7 @@ const Metrics<LaserNumbers>& laserMetrics() {
          [](const L& l) { return l.lost_brier; }}};
     out.insert(out.end(), own.begin(), own.end());
     // the absolute values of their means over the runs add up to the expected calibration error
-    for (size_t k = 0; k < L{}.lost_gaps.size(); ++k) {
+    for (size_t k = 0; k < L::kGaps; ++k) {
       const std::string from = std::to_string(20 * k), to = std::to_string(20 * k + 20);
       out.push_back({{"lost_gap_" + std::to_string(k + 1), "1",
                       "sum of said minus true where it said " + from + " to " + to +

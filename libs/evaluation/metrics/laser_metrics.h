@@ -21,7 +21,8 @@ struct LaserNumbers {
   TrajectoryErrors settled;  ///< errors from settle_s on
   double final_error_m = NAN, found_after_s = NAN;
   double lost_share = 0, lost_told = 0, lost_brier = 0;
-  std::array<double, 5> lost_gaps{};
+  static constexpr size_t kGaps = 5;
+  std::array<double, kGaps> lost_gaps{};
 };
 LaserNumbers measureTrial(const std::vector<LaserSample>& samples, double settle_s);
 

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/metrics/world_metrics.h"
 
-#include <cmath>
+#include <limits>
 
 #include "evaluation/metrics/collision_index.h"
 
 namespace sidestep {
 namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double contacts(const WorldNumbers& w, const char* kind) { return w.summary.contacts.at(kind); }
 
@@ -54,7 +56,7 @@ const Metrics<WorldNumbers>& worldMetrics() {
       {{"standing_time", "s", "for how long the robot stood (below 1 cm/s)", Better::kLower, ""},
        [](const W& w) { return w.standing_s; }},
       {{"braked", "1", "share of its plans that braked or found no way", Better::kLower, ""},
-       [](const W& w) { return w.plans > 0 ? static_cast<double>(w.braked) / static_cast<double>(w.plans) : NAN; }}};
+       [](const W& w) { return w.plans > 0 ? static_cast<double>(w.braked) / static_cast<double>(w.plans) : kNaN; }}};
   return rows;
 }
 
