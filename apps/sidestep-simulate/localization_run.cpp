@@ -35,10 +35,10 @@ void note(const SensorStep& step, const mrpt::math::TPose2D& start, Summary& out
   out.path_m += std::abs(step.truth.distance_m);
 }
 
-std::string metricsText(const SimulateConfig& config, const Summary& summary) {
+std::string metricsText(const Scenario& config, const Summary& summary) {
   const TrajectoryErrors errors = summary.odometry.measure(Alignment::kNone);
   nlohmann::ordered_json odometry{{"samples", errors.samples}};
-  addMetrics(errorMetrics(), errors, false, odometry);
+  addMetrics(errorMetrics(), errors, {}, odometry);
   const nlohmann::ordered_json json{{"kind", config.kind},
                                     {"seed", config.seed},
                                     {"duration_s", summary.duration_s},
@@ -51,7 +51,7 @@ std::string metricsText(const SimulateConfig& config, const Summary& summary) {
 
 }  // namespace
 
-ExitCode runLocalization(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder) {
+ExitCode runLocalization(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder) {
   const LocalizationScenario scenario(config.localization);
   LogWriter log(folder.file("run.rawlog"), commandLine());
   Summary summary;

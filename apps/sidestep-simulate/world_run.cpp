@@ -13,13 +13,13 @@
 #include "datasets/log_writer.h"
 #include "evaluation/experiments/plan_explanation.h"
 #include "evaluation/experiments/plan_snapshots.h"
+#include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/metrics/collision_index.h"
 #include "evaluation/metrics/metric_json.h"
 #include "evaluation/metrics/world_metrics.h"
 #include "figures/timeline_figure.h"
 #include "figures/world_figure.h"
-#include "navigation/planner_driver.h"
 #include "simulation/world_observations.h"
 
 namespace sidestep {
@@ -27,17 +27,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string metricsText(const SimulateConfig& config, const World& world, const WorldRecorder& recorder,
-                        const Json& written) {
+std::string metricsText(const Scenario& config, const World& world, const WorldRecorder& recorder,
+                        const PlanCount& plans, const Json& written) {
   const WorldSummary s = summarize(world);
   Json hits = Json::array();
-  for (const Contact& c : world.contacts(0).contacts())
+  for (const Contact& c : world.contacts(world.robotUnderTest()).contacts())
     hits.push_back(
         {{"kind", word(c.kind)}, {"time_s", c.time_s}, {"other", c.other}, {"closing_speed", c.closing_speed}});
   Json json{{"kind", config.kind}, {"seed", config.seed}};
-  addMetrics(worldMetrics(),
-             {s, recorder.largestCollisionIndex(), recorder.timeAboveThreshold(), recorder.timeStanding(), 0, 0}, true,
-             json);
+  const WorldNumbers numbers{s, recorder.largestCollisionIndex(), recorder.timeAboveThreshold(),
+                             recorder.timeStanding(), plans};
+  addMetrics(worldMetrics(), numbers, {.aliases = true, .undefined_is_null = true}, json);
   json["contacts"] = s.contacts;
   json["hits"] = hits;
   json["observations"] = written;
@@ -45,13 +45,16 @@ std::string metricsText(const SimulateConfig& config, const World& world, const 
   return json.dump(2) + "\n";
 }
 
-/// Has the first robot's planner say why it does what it does.
-void askForReasons(const WorldScenario& scenario, World& world, PlanExplanation& explanation) {
-  const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
-  if (!watchFirstRobot(world, scenario, true, [&explanation](const PlanInput& in, const PlanOutput& out) {
-        explanation.note(in.time_s, out);
-      }))
-    throw ConfigError("--explain: the first robot is driven by " + robot.planner + ", which is no local planner");
+/// Counts the plans of the robot under test; with `explanation` its planner says why it does what it does.
+void watchPlans(const WorldScenario& scenario, World& world, PlanCount& plans, PlanExplanation* explanation) {
+  const bool watched = watchRobotUnderTest(world, scenario, explanation != nullptr,
+                                           [&plans, explanation](const PlanInput& in, const PlanOutput& out) {
+                                             plans.add(out);
+                                             if (explanation != nullptr) explanation->note(in.time_s, out);
+                                           });
+  if (!watched && explanation != nullptr)
+    throw ConfigError("--explain: the planner of the robot under test is " + robotUnderTest(scenario.world).planner +
+                      ", which is no local planner");
 }
 
 void film(const WorldFigure& figure, const OutputFolder& folder) {
@@ -62,10 +65,10 @@ void film(const WorldFigure& figure, const OutputFolder& folder) {
 }
 
 /// A column for each planner of the command line, or one for the scenario's.
-void drawSnapshotsOf(const SimulateOptions& options, const SimulateConfig& config, const WorldInputs& inputs,
+void drawSnapshotsOf(const SimulateOptions& options, const Scenario& config, const WorldInputs& inputs,
                      const World& world, const OutputFolder& folder) {
   WorldScenario scenario = config.world;
-  std::string& planner = scenario.world.robots.at(scenario.world.robot_names[0]).planner;
+  std::string& planner = robotUnderTest(scenario.world).planner;
   const auto planners = options.planners.empty() ? std::vector<std::string>{planner} : options.planners;
   std::vector<double> times = options.snapshots_s;
   std::sort(times.begin(), times.end());
@@ -79,11 +82,13 @@ void drawSnapshotsOf(const SimulateOptions& options, const SimulateConfig& confi
 
 }  // namespace
 
-ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder) {
+ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder) {
   const WorldInputs inputs = readWorldInputs(config.world.world, options.scenario);
-  World world(config.world.world, static_cast<uint64_t>(config.seed), inputs, plannerDrivers(config.world.planners));
+  World world(config.world.world, static_cast<uint64_t>(config.seed), inputs,
+              navigatorControllers(config.world.planners));
   PlanExplanation explanation;
-  if (options.explain) askForReasons(config.world, world, explanation);
+  PlanCount plans;
+  watchPlans(config.world, world, plans, options.explain ? &explanation : nullptr);
   LogWriter log(folder.file("run.rawlog"), commandLine());
   WorldReporter reporter(world);
   WorldRecorder recorder(world);
@@ -105,7 +110,7 @@ ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, 
     });
   }
   log.close();
-  folder.writeText("metrics.json", metricsText(config, world, recorder, written));
+  folder.writeText("metrics.json", metricsText(config, world, recorder, plans, written));
   recorder.figure().title = options.scenario.substr(options.scenario.find_last_of('/') + 1);
   if (options.explain) folder.writeText("explain.csv", explanation.csv());
   if (!options.no_picture) {
@@ -117,7 +122,8 @@ ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, 
   if (!options.snapshots_s.empty() && !interrupted()) drawSnapshotsOf(options, config, inputs, world, folder);
   const WorldSummary s = summarize(world);
   std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", folder.file("run.rawlog").c_str(),
-              s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m, world.contacts(0).contacts().size());
+              s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m,
+              world.contacts(world.robotUnderTest()).contacts().size());
   if (std::isfinite(s.min_clearance_m)) std::printf(", closest %.2f m", s.min_clearance_m);
   std::printf("\n");
   return interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;

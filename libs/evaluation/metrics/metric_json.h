@@ -15,14 +15,18 @@ inline nlohmann::ordered_json metricJson(const MetricInfo& info, double value) {
   return value;
 }
 
-/// Adds each row under its alias, where it has one and `use_alias`, else its name. What is not defined is left out;
-/// what is infinite is null.
+struct MetricJsonStyle {
+  bool aliases = false;            ///< the key is the row's alias, where it has one
+  bool undefined_is_null = false;  ///< else what is not defined is left out
+};
+
+/// Adds each row to an object; what is infinite is null.
 template <class Run>
-void addMetrics(const Metrics<Run>& rows, const Run& run, bool use_alias, nlohmann::ordered_json& json) {
+void addMetrics(const Metrics<Run>& rows, const Run& run, const MetricJsonStyle& style, nlohmann::ordered_json& json) {
   for (const auto& row : rows) {
     const double value = row.value(run);
-    const auto& name = use_alias && !row.info.alias.empty() ? row.info.alias : row.info.name;
-    if (!std::isnan(value)) json[name] = metricJson(row.info, value);
+    if (std::isnan(value) && !style.undefined_is_null) continue;
+    json[style.aliases && !row.info.alias.empty() ? row.info.alias : row.info.name] = metricJson(row.info, value);
   }
 }
 

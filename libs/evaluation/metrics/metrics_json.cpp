@@ -44,7 +44,7 @@ Json toJson(const mrpt::math::TPose2D& pose) {
 Json toJson(const std::optional<TrajectoryErrors>& errors) {
   Json json = Json::object();
   if (!errors) return json;
-  addMetrics(errorMetrics(), *errors, false, json);
+  addMetrics(errorMetrics(), *errors, {}, json);
   json["samples"] = errors->samples;
   json["alignment"] = name(errors->alignment);
   json["T_truth_estimate"] = toJson(errors->T_truth_estimate);

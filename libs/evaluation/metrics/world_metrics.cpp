@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/metrics/world_metrics.h"
 
+#include <cmath>
 #include <limits>
 
 #include "evaluation/metrics/collision_index.h"
@@ -10,6 +11,9 @@ namespace sidestep {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Without anybody there is no distance.
+double orUndefined(double distance_m) { return std::isfinite(distance_m) ? distance_m : kNaN; }
 
 double contacts(const WorldNumbers& w, const char* kind) { return w.summary.contacts.at(kind); }
 
@@ -42,9 +46,9 @@ const Metrics<WorldNumbers>& worldMetrics() {
        [](const W& w) { return w.summary.average_velocity; }},
       {{"min_clearance", "m", "least distance to people and other robots; below 0: overlap", Better::kHigher,
         "min_clearance_m"},
-       [](const W& w) { return w.summary.min_clearance_m; }},
+       [](const W& w) { return orUndefined(w.summary.min_clearance_m); }},
       {{"min_wall_clearance", "m", "least distance to walls, where below 5 m", Better::kHigher, "min_wall_clearance_m"},
-       [](const W& w) { return w.summary.min_wall_clearance_m; }},
+       [](const W& w) { return orUndefined(w.summary.min_wall_clearance_m); }},
       {{"delta_min", "1", "nearness (4.6) at the least distance: 1 at contact, towards 0 far away", Better::kLower, ""},
        [](const W& w) { return deltaMin(w.summary.min_clearance_m); }},
       {{"ci_max", "1", "largest collision index (4.11)", Better::kLower, "collision_index_max"},
@@ -55,8 +59,9 @@ const Metrics<WorldNumbers>& worldMetrics() {
        [](const W& w) { return w.above_threshold_s; }},
       {{"standing_time", "s", "for how long the robot stood (below 1 cm/s)", Better::kLower, ""},
        [](const W& w) { return w.standing_s; }},
-      {{"braked", "1", "share of its plans that braked or found no way", Better::kLower, ""},
-       [](const W& w) { return w.plans > 0 ? static_cast<double>(w.braked) / static_cast<double>(w.plans) : kNaN; }}};
+      {{"braked", "1", "share of its plans that braked or found no way", Better::kLower, ""}, [](const W& w) {
+         return w.plans.all > 0 ? static_cast<double>(w.plans.braked) / static_cast<double>(w.plans.all) : kNaN;
+       }}};
   return rows;
 }
 

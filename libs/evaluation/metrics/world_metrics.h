@@ -2,15 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "evaluation/metrics/metric.h"
+#include "planning/local_planner.h"
 #include "simulation/world.h"
 
 namespace sidestep {
 
-/// What a run of a world adds up to, of its first robot.
+/// Plans of the robot under test.
+struct PlanCount {
+  size_t all = 0, braked = 0;
+  void add(const PlanOutput& out) {
+    ++all;
+    if (out.status == PlanOutput::Status::kBraking || out.status == PlanOutput::Status::kNoPlan) ++braked;
+  }
+};
+
+/// What a run of a world adds up to, of the robot under test.
 struct WorldNumbers {
   WorldSummary summary;
   double largest_index = 0, above_threshold_s = 0, standing_s = 0;  ///< WorldRecorder
-  size_t plans = 0, braked = 0;                                     ///< of its planner
+  PlanCount plans;
 };
 
 /// The rows of studies of kind `world`, and of metrics.json of sidestep-simulate.
