@@ -68,8 +68,11 @@ TEST(Metrics, ANameMeansTheSameInEachTable) {
 TEST(Metrics, AUnitInTheNameIsTheUnit) {
   for (const auto& table : metricTables())
     for (const auto& row : table.rows)
-      for (const std::string unit : {"m", "m2", "s", "deg"})
-        if (row.name.ends_with("_" + unit)) EXPECT_EQ(row.unit, unit) << row.name;
+      for (const std::string unit : {"m", "m2", "s", "deg"}) {
+        if (row.name.ends_with("_" + unit)) {
+          EXPECT_EQ(row.unit, unit) << row.name;
+        }
+      }
 }
 
 std::string document() {
@@ -122,7 +125,7 @@ const std::map<std::string, std::string>& smallestStudies() {
        "scenarios: {a: {map: room.yaml, drive: {duration_s: 8}, trial: {start: off}}}\n"
        "algorithms: {mcl: {set: {filter: mcl}}}\n"},
       {"world",
-       "scenarios: {a: {set: {duration_s: 2, robots: {robot: {goals: [{x_m: 1, y_m: 0}]}}}}}\n"
+       "scenarios: {a: {set: {duration_s: 2, robots: {robot: {goals: [{x: 1, y: 0}]}}}}}\n"
        "algorithms: {straight: {robot: straight}}\n"}};
   return studies;
 }

@@ -30,9 +30,9 @@ const Metrics<WorldNumbers>& worldMetrics() {
        [](const W& w) { return static_cast<double>(w.summary.goals_reached); }},
       {{"collision", "yes/no", "whether there was any contact", Better::kLower, ""},
        [](const W& w) { return w.summary.collision ? 1.0 : 0.0; }},
-      {{"robot_into_person", "count", "contacts that the robot caused", Better::kLower, ""},
+      {{"robot_into_person", "count", "contacts with people that the robot caused", Better::kLower, ""},
        [](const W& w) { return contacts(w, "robot_into_person"); }},
-      {{"person_into_robot", "count", "contacts that a person caused", Better::kLower, ""},
+      {{"person_into_robot", "count", "contacts that people caused", Better::kLower, ""},
        [](const W& w) { return contacts(w, "person_into_robot"); }},
       {{"robot_into_robot", "count", "contacts with other robots", Better::kLower, ""},
        [](const W& w) { return contacts(w, "robot_into_robot"); }},
@@ -40,12 +40,12 @@ const Metrics<WorldNumbers>& worldMetrics() {
        [](const W& w) { return contacts(w, "robot_into_wall"); }},
       {{"time", "s", "until it arrived, or the end of the run", Better::kLower, "time_s"},
        [](const W& w) { return w.summary.time_s; }},
-      {{"path_length", "m", "way that it drove", Better::kLower, "path_m"},
+      {{"path_length", "m", "length of the path driven", Better::kLower, "path_m"},
        [](const W& w) { return w.summary.path_m; }},
-      {{"average_velocity", "m/s", "that way by that time", Better::kHigher, ""},
+      {{"average_velocity", "m/s", "path length divided by time", Better::kHigher, ""},
        [](const W& w) { return w.summary.average_velocity; }},
-      {{"min_clearance", "m", "least distance to people and other robots; below 0: overlap", Better::kHigher,
-        "min_clearance_m"},
+      {{"min_clearance", "m", "least distance between the rims, to people and other robots; below 0: overlap",
+        Better::kHigher, "min_clearance_m"},
        [](const W& w) { return orUndefined(w.summary.min_clearance_m); }},
       {{"min_wall_clearance", "m", "least distance to walls, where below 5 m", Better::kHigher, "min_wall_clearance_m"},
        [](const W& w) { return orUndefined(w.summary.min_wall_clearance_m); }},
@@ -59,7 +59,7 @@ const Metrics<WorldNumbers>& worldMetrics() {
        [](const W& w) { return w.above_threshold_s; }},
       {{"standing_time", "s", "for how long the robot stood (below 1 cm/s)", Better::kLower, ""},
        [](const W& w) { return w.standing_s; }},
-      {{"braked", "1", "share of its plans that braked or found no way", Better::kLower, ""}, [](const W& w) {
+      {{"braked", "1", "share of control cycles that brake or have no plan", Better::kLower, ""}, [](const W& w) {
          return w.plans.all > 0 ? static_cast<double>(w.plans.braked) / static_cast<double>(w.plans.all) : kNaN;
        }}};
   return rows;
