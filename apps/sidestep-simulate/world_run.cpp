@@ -13,6 +13,7 @@
 #include "datasets/log_writer.h"
 #include "evaluation/experiments/plan_explanation.h"
 #include "evaluation/experiments/plan_snapshots.h"
+#include "evaluation/experiments/standing_reasons.h"
 #include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/metrics/collision_index.h"
@@ -25,10 +26,39 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kStandsMuch = 0.1;  ///< share of a run from which the summary says why
+
 Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json standingJson(const StandingReasons& standing) {
+  Json reasons = Json::array();
+  for (const auto& [reason, share] : standing.reasons()) reasons.push_back({{"reason", reason}, {"share", share}});
+  return {{"share", standing.share()}, {"reasons", reasons}};
+}
+
+/// "anna", or "crowd 3" of several.
+std::string nameOfPerson(const WorldParams& world, int id) {
+  for (const auto& name : world.people_names) {
+    const int count = world.people.at(name).count;
+    if (id < count) return count == 1 ? name : name + " " + std::to_string(id + 1);
+    id -= count;
+  }
+  return "person " + std::to_string(id);
+}
+
+Json stuckJson(const World& world) {
+  Json out = Json::array();
+  for (const StuckPerson& p : world.stuckPeople())
+    out.push_back({{"person", nameOfPerson(world.params(), p.id)},
+                   {"x", p.position.x},
+                   {"y", p.position.y},
+                   {"from_s", p.from_s},
+                   {"for_s", p.for_s}});
+  return out;
+}
+
 std::string metricsText(const Scenario& config, const World& world, const WorldRecorder& recorder,
-                        const Json& written) {
+                        const StandingReasons& standing, const Json& written) {
   const WorldSummary s = summarize(world);
   Json hits = Json::array();
   for (const Contact& c : world.contacts(world.robotUnderTest()).contacts())
@@ -48,19 +78,39 @@ std::string metricsText(const Scenario& config, const World& world, const WorldR
                   {"collision_index_max", recorder.largestCollisionIndex()},
                   {"contacts", s.contacts},
                   {"hits", hits},
+                  {"standing", standingJson(standing)},
+                  {"stuck_people", stuckJson(world)},
                   {"observations", written},
                   {"partial", interrupted()}};
   return json.dump(2) + "\n";
 }
 
-/// Has the planner of the robot under test say why it does what it does.
-void askForReasons(const WorldScenario& scenario, World& world, PlanExplanation& explanation) {
+/// Has the planner of the robot under test say why it stands and, if asked for, why it does what it does.
+void askForReasons(const SimulateOptions& options, const WorldScenario& scenario, World& world,
+                   PlanExplanation& explanation, StandingReasons& standing) {
   const RobotParams& robot = robotUnderTest(scenario.world);
-  if (!watchRobotUnderTest(world, scenario, true, [&explanation](const PlanInput& in, const PlanOutput& out) {
-        explanation.note(in.time_s, out);
-      }))
+  const auto watch = [&](const PlanInput& in, const PlanOutput& out) {
+    if (options.explain) explanation.note(in.time_s, out);
+    standing.note(in, out);
+  };
+  if (!watchRobotUnderTest(world, scenario, options.explain, watch) && options.explain)
     throw ConfigError("--explain: the planner of the robot under test is " + robot.planner +
                       ", which is no local planner");
+}
+
+void printSummary(const World& world, const StandingReasons& standing, const std::string& log_file) {
+  const WorldSummary s = summarize(world);
+  std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", log_file.c_str(), s.arrived ? "arrived" : "not arrived",
+              s.time_s, s.path_m, world.contacts(world.robotUnderTest()).contacts().size());
+  if (std::isfinite(s.min_clearance_m)) std::printf(", closest %.2f m", s.min_clearance_m);
+  std::printf("\n");
+  if (standing.share() > kStandsMuch)
+    for (const auto& [reason, share] : standing.reasons())
+      if (share > 0.2 * standing.share())
+        std::printf("the robot stood for %.0f %% of the run: %s\n", 100 * share, reason.c_str());
+  for (const StuckPerson& p : world.stuckPeople())
+    std::printf("%s was stuck at (%.2f, %.2f) for %.0f s, from %.0f s on\n", nameOfPerson(world.params(), p.id).c_str(),
+                p.position.x, p.position.y, p.for_s, p.from_s);
 }
 
 void film(const WorldFigure& figure, const OutputFolder& folder) {
@@ -88,12 +138,13 @@ void drawSnapshotsOf(const SimulateOptions& options, const Scenario& config, con
 
 }  // namespace
 
-ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder) {
-  const WorldInputs inputs = readWorldInputs(config.world.world, options.scenario);
+ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const WorldInputs& inputs,
+                  const OutputFolder& folder) {
   World world(config.world.world, static_cast<uint64_t>(config.seed), inputs,
               navigatorControllers(config.world.planners));
   PlanExplanation explanation;
-  if (options.explain) askForReasons(config.world, world, explanation);
+  StandingReasons standing;
+  askForReasons(options, config.world, world, explanation, standing);
   LogWriter log(folder.file("run.rawlog"), commandLine());
   WorldReporter reporter(world);
   WorldRecorder recorder(world);
@@ -115,7 +166,7 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
     });
   }
   log.close();
-  folder.writeText("metrics.json", metricsText(config, world, recorder, written));
+  folder.writeText("metrics.json", metricsText(config, world, recorder, standing, written));
   recorder.figure().title = options.scenario.substr(options.scenario.find_last_of('/') + 1);
   if (options.explain) folder.writeText("explain.csv", explanation.csv());
   if (!options.no_picture) {
@@ -125,12 +176,7 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
   }
   if (options.video) film(recorder.figure(), folder);
   if (!options.snapshots_s.empty() && !interrupted()) drawSnapshotsOf(options, config, inputs, world, folder);
-  const WorldSummary s = summarize(world);
-  std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", folder.file("run.rawlog").c_str(),
-              s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m,
-              world.contacts(world.robotUnderTest()).contacts().size());
-  if (std::isfinite(s.min_clearance_m)) std::printf(", closest %.2f m", s.min_clearance_m);
-  std::printf("\n");
+  printSummary(world, standing, folder.file("run.rawlog"));
   return interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 

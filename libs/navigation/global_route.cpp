@@ -8,6 +8,7 @@
 
 #include "core/geometry.h"
 #include "maps/nearest_reachable.h"
+#include "maps/wall_clearances.h"
 #include "planning/global/global_planners.h"
 
 namespace sidestep {
@@ -17,62 +18,9 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr double kMoved_m = 0.3;       ///< who has moved so far does not stand
-constexpr double kAround_m = 1;        ///< of the map, beyond the walls
 constexpr double kEndsWithin_m = 2;    ///< longest way from start and goal to where there is room
 constexpr double kLeastRoom_m = 0.02;  ///< between the rim and walls, in the tightest passage
 constexpr double kTightPrice = 1;      ///< a metre there costs as much as 1 + this with all the room wanted
-
-/// Exact clearances around walls and discs, at the centres of cells.
-class Clearances {
- public:
-  Clearances(const Situation& now, double resolution_m, double cap_m) : cap_m_(cap_m) {
-    double x_min = std::min(now.pose.x, now.goal.x), x_max = std::max(now.pose.x, now.goal.x);
-    double y_min = std::min(now.pose.y, now.goal.y), y_max = std::max(now.pose.y, now.goal.y);
-    for (const auto& wall : now.walls)
-      for (const auto& p : {wall.a, wall.b}) {
-        x_min = std::min(x_min, p.x), x_max = std::max(x_max, p.x);
-        y_min = std::min(y_min, p.y), y_max = std::max(y_max, p.y);
-      }
-    frame_.resolution_m = resolution_m;
-    frame_.T_map_grid = {x_min - kAround_m, y_min - kAround_m, 0};
-    frame_.width = 1 + static_cast<int>((x_max - x_min + 2 * kAround_m) / resolution_m);
-    frame_.height = 1 + static_cast<int>((y_max - y_min + 2 * kAround_m) / resolution_m);
-    values_.assign(static_cast<size_t>(frame_.width) * static_cast<size_t>(frame_.height), static_cast<float>(cap_m));
-    for (const auto& wall : now.walls)
-      lower(wall.a, wall.b, 0, [&](const TPoint2D& p) { return (nearestPoint(wall, p) - p).norm(); });
-  }
-  void disc(const TPoint2D& centre, double radius_m) {
-    lower(centre, centre, radius_m, [&](const TPoint2D& p) { return (p - centre).norm() - radius_m; });
-  }
-  DistanceField field() const {
-    DistanceFieldParams params;
-    params.cap_m = cap_m_;
-    return DistanceField(frame_, std::span<const float>(values_), params);
-  }
-
- private:
-  int column(double x) const { return cell(x - frame_.T_map_grid.x, frame_.width); }
-  int row(double y) const { return cell(y - frame_.T_map_grid.y, frame_.height); }
-  int cell(double off_m, int count) const {
-    return std::clamp(static_cast<int>(std::floor(off_m / frame_.resolution_m)), 0, count - 1);
-  }
-  /// The cells that something between two corners may bring below the cap.
-  template <class Distance>
-  void lower(const TPoint2D& a, const TPoint2D& b, double radius_m, const Distance& distance) {
-    const double reach = cap_m_ + radius_m;
-    const int x0 = column(std::min(a.x, b.x) - reach), x1 = column(std::max(a.x, b.x) + reach);
-    const int y0 = row(std::min(a.y, b.y) - reach), y1 = row(std::max(a.y, b.y) + reach);
-    for (int iy = y0; iy <= y1; ++iy)
-      for (int ix = x0; ix <= x1; ++ix) {
-        float& value = values_[static_cast<size_t>(iy) * static_cast<size_t>(frame_.width) + static_cast<size_t>(ix)];
-        value = std::min(value, static_cast<float>(distance(frame_.centre(ix, iy))));
-      }
-  }
-
-  double cap_m_;
-  GridFrame frame_;
-  std::vector<float> values_;
-};
 
 /// Leaves out points where the straight line keeps as much room as the way it replaces, or all that is wanted.
 std::vector<TPoint2D> pulledTaut(const std::vector<TPose2D>& poses, const DistanceField& field, double comfort_m) {
@@ -130,13 +78,14 @@ bool GlobalRoute::isDue(const Situation& now) const {
 /// From the robot to the goal, points in order; empty if there is no way.
 std::vector<TPoint2D> GlobalRoute::plan(const Situation& now, bool around_standing) const {
   const double least_m = radius_m_ + kLeastRoom_m, comfort_m = std::max(radius_m_ + params_.margin_m, least_m);
-  Clearances clearances(now, params_.resolution_m, comfort_m + params_.resolution_m);
+  const TPoint2D ends[] = {pointOf(now.pose), pointOf(now.goal)};
+  WallClearances clearances(now.walls, ends, params_.resolution_m, comfort_m + params_.resolution_m);
   if (around_standing)
     for (const auto& [id, rest] : others_)
-      if (now.time_s - rest.since_s >= params_.standing_s) clearances.disc(rest.position, rest.radius_m);
+      if (now.time_s - rest.since_s >= params_.standing_s) clearances.addDisc(rest.position, rest.radius_m);
   const auto field = std::make_shared<const DistanceField>(clearances.field());
-  auto out = wayToClearance(*field, pointOf(now.pose), least_m, kEndsWithin_m);
-  const auto from_goal = wayToClearance(*field, pointOf(now.goal), least_m, kEndsWithin_m);
+  auto out = wayToClearance(*field, ends[0], least_m, kEndsWithin_m);
+  const auto from_goal = wayToClearance(*field, ends[1], least_m, kEndsWithin_m);
   if (out.empty() || from_goal.empty()) return {};
   GlobalPlannerParams params;
   params.clearance_m = least_m;

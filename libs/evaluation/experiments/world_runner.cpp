@@ -13,6 +13,7 @@
 #include "core/overlay_yaml.h"
 #include "core/random.h"
 #include "evaluation/experiments/scenario.h"
+#include "evaluation/experiments/world_check.h"
 #include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/experiments/world_scenario.h"
@@ -27,6 +28,7 @@ constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 struct ScenarioEntry {
   std::string file, set, goals = "all";
+  bool unchecked = false;
   // made by prepare()
   std::vector<WorldScenario> worlds;                       ///< by algorithm
   std::vector<std::shared_ptr<const WorldInputs>> inputs;  ///< by algorithm
@@ -115,6 +117,8 @@ class WorldRunner final : public StudyRunner {
  private:
   WorldScenario load(ScenarioEntry& s, const std::string& where) const;
   std::shared_ptr<const WorldInputs> inputsOf(const WorldParams& p, bool load_data);
+  void checkRunnable(const WorldParams& world, const WorldInputs& inputs, const std::string& scenario,
+                     const std::string& algorithm) const;
 
   std::string file_;
   std::vector<ScenarioEntry> scenarios_;
@@ -154,6 +158,16 @@ std::shared_ptr<const WorldInputs> WorldRunner::inputsOf(const WorldParams& p, b
   return known;
 }
 
+/// @throws ConfigError with all that overlaps or cannot be reached.
+void WorldRunner::checkRunnable(const WorldParams& world, const WorldInputs& inputs, const std::string& scenario,
+                                const std::string& algorithm) const {
+  const auto problems = findProblems(world, inputs.walls);
+  if (problems.empty()) return;
+  std::string text = file_ + ": scenarios." + scenario + " with algorithms." + algorithm + ":";
+  for (const auto& p : problems) text += "\n  " + p.key + ": " + p.what;
+  throw ConfigError(text + "\n(unchecked: true in the scenario's entry runs it anyway)");
+}
+
 void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
                           const std::vector<std::string>& algorithms, bool load_data) {
   axes_ = axes;
@@ -170,6 +184,8 @@ void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::
         throw ConfigError(file_ + ": algorithms." + algorithms[a] + ": " + e.what());
       }
       s.inputs.push_back(inputsOf(world.world, load_data));
+      if (load_data && !s.unchecked && (a == 0 || !isBlank(algorithms_[a].set)))
+        checkRunnable(world.world, *s.inputs.back(), scenarios[i], algorithms[a]);
       s.worlds.push_back(std::move(world));
     }
   }
