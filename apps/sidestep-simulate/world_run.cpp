@@ -17,6 +17,8 @@
 #include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/metrics/collision_index.h"
+#include "evaluation/metrics/metric_json.h"
+#include "evaluation/metrics/world_metrics.h"
 #include "figures/timeline_figure.h"
 #include "figures/world_figure.h"
 #include "simulation/world_observations.h"
@@ -28,7 +30,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kStandsMuch = 0.1;  ///< share of a run from which the summary says why
 
-Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+/// What is noted of the planner of the robot under test.
+struct PlanNotes {
+  PlanCount plans;
+  StandingReasons standing;
+  PlanExplanation explanation;
+};
 
 Json standingJson(const StandingReasons& standing) {
   Json reasons = Json::array();
@@ -58,43 +65,35 @@ Json stuckJson(const World& world) {
 }
 
 std::string metricsText(const Scenario& config, const World& world, const WorldRecorder& recorder,
-                        const StandingReasons& standing, const Json& written) {
+                        const PlanNotes& notes, const Json& written) {
   const WorldSummary s = summarize(world);
   Json hits = Json::array();
   for (const Contact& c : world.contacts(world.robotUnderTest()).contacts())
     hits.push_back(
         {{"kind", word(c.kind)}, {"time_s", c.time_s}, {"other", c.other}, {"closing_speed", c.closing_speed}});
-  const Json json{{"kind", config.kind},
-                  {"seed", config.seed},
-                  {"success", s.success},
-                  {"arrived", s.arrived},
-                  {"goals_reached", s.goals_reached},
-                  {"time_s", s.time_s},
-                  {"path_m", s.path_m},
-                  {"average_velocity", s.average_velocity},
-                  {"min_clearance_m", finiteOrNull(s.min_clearance_m)},
-                  {"min_wall_clearance_m", finiteOrNull(s.min_wall_clearance_m)},
-                  {"delta_min", deltaMin(s.min_clearance_m)},
-                  {"collision_index_max", recorder.largestCollisionIndex()},
-                  {"contacts", s.contacts},
-                  {"hits", hits},
-                  {"standing", standingJson(standing)},
-                  {"stuck_people", stuckJson(world)},
-                  {"observations", written},
-                  {"partial", interrupted()}};
+  Json json{{"kind", config.kind}, {"seed", config.seed}};
+  const WorldNumbers numbers{s, recorder.largestCollisionIndex(), recorder.timeAboveThreshold(),
+                             recorder.timeStanding(), notes.plans};
+  addMetrics(worldMetrics(), numbers, {.aliases = true, .undefined_is_null = true}, json);
+  json["contacts"] = s.contacts;
+  json["hits"] = hits;
+  json["standing"] = standingJson(notes.standing);
+  json["stuck_people"] = stuckJson(world);
+  json["observations"] = written;
+  json["partial"] = interrupted();
   return json.dump(2) + "\n";
 }
 
 /// Has the planner of the robot under test say why it stands and, if asked for, why it does what it does.
-void askForReasons(const SimulateOptions& options, const WorldScenario& scenario, World& world,
-                   PlanExplanation& explanation, StandingReasons& standing) {
-  const RobotParams& robot = robotUnderTest(scenario.world);
-  const auto watch = [&](const PlanInput& in, const PlanOutput& out) {
-    if (options.explain) explanation.note(in.time_s, out);
-    standing.note(in, out);
-  };
-  if (!watchRobotUnderTest(world, scenario, options.explain, watch) && options.explain)
-    throw ConfigError("--explain: the planner of the robot under test is " + robot.planner +
+void watchPlans(const WorldScenario& scenario, bool explain, World& world, PlanNotes& notes) {
+  const bool watched =
+      watchRobotUnderTest(world, scenario, explain, [&notes, explain](const PlanInput& in, const PlanOutput& out) {
+        notes.plans.add(out);
+        notes.standing.note(in, out);
+        if (explain) notes.explanation.note(in.time_s, out);
+      });
+  if (!watched && explain)
+    throw ConfigError("--explain: the planner of the robot under test is " + robotUnderTest(scenario.world).planner +
                       ", which is no local planner");
 }
 
@@ -142,9 +141,8 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
                   const OutputFolder& folder) {
   World world(config.world.world, static_cast<uint64_t>(config.seed), inputs,
               navigatorControllers(config.world.planners));
-  PlanExplanation explanation;
-  StandingReasons standing;
-  askForReasons(options, config.world, world, explanation, standing);
+  PlanNotes notes;
+  watchPlans(config.world, options.explain, world, notes);
   LogWriter log(folder.file("run.rawlog"), commandLine());
   WorldReporter reporter(world);
   WorldRecorder recorder(world);
@@ -166,9 +164,9 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
     });
   }
   log.close();
-  folder.writeText("metrics.json", metricsText(config, world, recorder, standing, written));
+  folder.writeText("metrics.json", metricsText(config, world, recorder, notes, written));
   recorder.figure().title = options.scenario.substr(options.scenario.find_last_of('/') + 1);
-  if (options.explain) folder.writeText("explain.csv", explanation.csv());
+  if (options.explain) folder.writeText("explain.csv", notes.explanation.csv());
   if (!options.no_picture) {
     drawWorld(recorder.figure(), folder.file("trajectory.png"));
     drawTimeline({recorder.figure().title, kCollisionIndexThreshold, {{"", recorder.timeline()}}},
@@ -176,7 +174,7 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
   }
   if (options.video) film(recorder.figure(), folder);
   if (!options.snapshots_s.empty() && !interrupted()) drawSnapshotsOf(options, config, inputs, world, folder);
-  printSummary(world, standing, folder.file("run.rawlog"));
+  printSummary(world, notes.standing, folder.file("run.rawlog"));
   return interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 

@@ -123,7 +123,8 @@ TEST(Crowd, PeopleFindTheDoorToAGoalInTheOtherRoom) {
       if (told) p.waypoints = {{6, 3}};  // in the door itself
       Crowd crowd({p}, {}, {}, Random(seed));
       walk(crowd, 30, walls);
-      EXPECT_LT((crowd.people()[0].position - TPoint2D(10, 1)).norm(), 0.6) << seed << (told ? " told" : "");
+      // it has arrived 0.33 m before the goal, and coasts on by 1.34 m/s times 0.5 s
+      EXPECT_LT((crowd.people()[0].position - TPoint2D(10, 1)).norm(), 1) << seed << (told ? " told" : "");
       EXPECT_TRUE(crowd.stuck().empty());
     }
 }

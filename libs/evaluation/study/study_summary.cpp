@@ -61,7 +61,7 @@ SummaryLine summaryOf(const Study& study, const Values& values, size_t row, size
   line.algorithm = algorithm;
   line.scenario = study.rows()[row].name;
   line.algorithm_name = study.algorithms()[algorithm];
-  line.metric = study.runner().metrics()[metric];
+  line.metric = study.runner().metrics()[metric].name;
   std::vector<double> sample;
   for (size_t run = 0; run < static_cast<size_t>(study.runs); ++run) {
     const double v = values.at(row, algorithm, run, metric);
