@@ -33,7 +33,8 @@ configure:
 test: build
 	@ctest --preset $(PRESET) -j2
 
-demo: build
+demo: packages configure
+	@cmake --build --preset $(PRESET) --target sidestep-localize
 	@build/$(PRESET)/bin/sidestep-localize $(DATASETS)/uwb_ro-localization_demo.rawlog \
 	  -c share/robots/uwb-demo.yaml --sensors odometry,beacons \
 	  --ground-truth $(DATASETS)/uwb_ro-localization_demo_GT.txt -o $(DEMO_OUT) -w

@@ -8,7 +8,6 @@
 #include <mrpt/maps/registerAllClasses.h>
 #include <mrpt/obs/registerAllClasses.h>
 #include <mrpt/serialization/CArchive.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -21,6 +20,7 @@
 #include <fstream>
 
 #include "core/errors.h"
+#include "core/process_limits.h"
 #include "maps/image_file.h"
 #include "maps/ros_map.h"
 
@@ -31,6 +31,7 @@ using mrpt::maps::COccupancyGridMap2D;
 
 constexpr size_t kMostBytes = 1u << 29;       ///< of a map once unpacked
 constexpr size_t kDecodeMemory = 2ull << 30;  ///< what decoding scans may take on top of what we have
+constexpr double kDecodeSeconds = 60;         ///< of CPU time
 
 /// The file's bytes, unpacked if it is gzip.
 std::string unpacked(const std::string& file) {
@@ -117,9 +118,8 @@ GridMap readGridmap(const std::string& file) {
 bool survivesDecoding(const std::string& bytes) {
   const pid_t child = fork();
   if (child == 0) {
-    rlimit memory{kDecodeMemory, kDecodeMemory}, seconds{60, 60};
-    setrlimit(RLIMIT_DATA, &memory);
-    setrlimit(RLIMIT_CPU, &seconds);
+    limitMemory(kDecodeMemory);
+    limitCpuTime(kDecodeSeconds);
     try {
       mrpt::maps::CSimpleMap map;
       decode(bytes, map);
