@@ -34,7 +34,7 @@ void note(const SensorStep& step, const mrpt::math::TPose2D& start, Summary& out
   out.path_m += std::abs(step.truth.distance_m);
 }
 
-std::string metricsText(const SimulateConfig& config, const Summary& summary) {
+std::string metricsText(const Scenario& config, const Summary& summary) {
   const TrajectoryErrors errors = summary.odometry.measure(Alignment::kNone);
   const nlohmann::ordered_json json{{"kind", config.kind},
                                     {"seed", config.seed},
@@ -54,7 +54,7 @@ std::string metricsText(const SimulateConfig& config, const Summary& summary) {
 
 }  // namespace
 
-ExitCode runLocalization(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder) {
+ExitCode runLocalization(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder) {
   const LocalizationScenario scenario(config.localization);
   LogWriter log(folder.file("run.rawlog"), commandLine());
   Summary summary;

@@ -7,6 +7,6 @@
 namespace sidestep {
 
 /// Runs a localization scenario into `folder`: run.rawlog, trajectory.png, metrics.json.
-ExitCode runLocalization(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder);
+ExitCode runLocalization(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder);
 
 }  // namespace sidestep

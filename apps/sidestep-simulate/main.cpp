@@ -13,13 +13,13 @@ int main(int argc, char** argv) {
   app.add_flag("-w,--overwrite", o.overwrite, "write into a folder that holds something");
   app.add_flag("-q,--quiet", o.quiet, "no progress bar");
   app.add_option("--seed", o.seed, "of the random numbers")->type_name("N");
-  app.add_option("--planner", o.planners, "who drives the first robot; with --snapshots several, a column each")
+  app.add_option("--planner", o.planners, "planner of the robot under test; with --snapshots several, a column each")
       ->type_name("NAME,...")
       ->delimiter(',');
   app.add_option("--snapshots", o.snapshots_s, "draw what the planner considers at these times: snapshots.png")
       ->type_name("SECONDS,...")
       ->delimiter(',');
-  app.add_flag("--explain", o.explain, "why the first robot's planner did what it did: explain.csv");
+  app.add_flag("--explain", o.explain, "why the planner of the robot under test did what it did: explain.csv");
   app.add_flag("--no-picture", o.no_picture, "do not draw trajectory.png, timeline.png");
   app.add_flag("--video", o.video, "film a world: run.mp4, through ffmpeg");
   app.add_flag("--write-config", o.write_config, "print all parameters as commented YAML and exit");

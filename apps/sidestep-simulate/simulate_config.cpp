@@ -6,22 +6,6 @@
 
 namespace sidestep {
 
-void SimulateConfig::visit(ParamVisitor& v) {
-  v.choice("kind", kind, {"localization", "world"}, "what the scenario is about");
-  v.integer("seed", seed, {0, 2e9}, "of the random numbers");
-  if (kind == "world")
-    world.visit(v);
-  else
-    localization.visit(v);
-}
-
-void SimulateConfig::check() const {
-  if (kind == "world")
-    world.check();
-  else
-    localization.check();
-}
-
 namespace {
 
 /// Each of the planners asked for, of which pictures of what they consider can be made, or the scenario's.
@@ -32,9 +16,9 @@ void checkSnapshots(const SimulateOptions& o, const std::string& scenarios_own) 
 
 }  // namespace
 
-SimulateConfig effectiveConfig(const SimulateOptions& o) {
-  SimulateConfig c;
-  if (!o.scenario.empty()) readYaml(o.scenario, [&](ParamVisitor& v) { c.visit(v); });
+Scenario effectiveScenario(const SimulateOptions& o) {
+  Scenario c;
+  if (!o.scenario.empty()) c = Scenario::read(o.scenario);
   if (o.seed && *o.seed < 0) throw ConfigError("--seed " + std::to_string(*o.seed) + ": must not be negative");
   if (o.seed) c.seed = *o.seed;
   if (!o.planners.empty() || !o.snapshots_s.empty()) {
@@ -43,7 +27,7 @@ SimulateConfig effectiveConfig(const SimulateOptions& o) {
       throw ConfigError("--planner: more than one only with --snapshots");
     WorldParams& world = c.world.world;
     if (world.robot_names.empty()) return c;  // an error of its own later
-    std::string& planner = world.robots.at(world.robot_names[0]).planner;
+    std::string& planner = robotUnderTest(world).planner;
     if (!o.snapshots_s.empty()) checkSnapshots(o, planner);
     if (!o.planners.empty()) planner = o.planners[0];
   }

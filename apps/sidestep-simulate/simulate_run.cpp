@@ -12,7 +12,7 @@
 namespace sidestep {
 
 ExitCode simulate(const SimulateOptions& options) {
-  SimulateConfig config = effectiveConfig(options);
+  Scenario config = effectiveScenario(options);
   const Visit fields = [&](ParamVisitor& v) { config.visit(v); };
   if (options.write_config) {
     std::fputs(writeYaml(fields).c_str(), stdout);

@@ -13,11 +13,11 @@
 #include "datasets/log_writer.h"
 #include "evaluation/experiments/plan_explanation.h"
 #include "evaluation/experiments/plan_snapshots.h"
+#include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/metrics/collision_index.h"
 #include "figures/timeline_figure.h"
 #include "figures/world_figure.h"
-#include "navigation/planner_driver.h"
 #include "simulation/world_observations.h"
 
 namespace sidestep {
@@ -27,11 +27,11 @@ using Json = nlohmann::ordered_json;
 
 Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-std::string metricsText(const SimulateConfig& config, const World& world, const WorldRecorder& recorder,
+std::string metricsText(const Scenario& config, const World& world, const WorldRecorder& recorder,
                         const Json& written) {
   const WorldSummary s = summarize(world);
   Json hits = Json::array();
-  for (const Contact& c : world.contacts(0).contacts())
+  for (const Contact& c : world.contacts(world.robotUnderTest()).contacts())
     hits.push_back(
         {{"kind", word(c.kind)}, {"time_s", c.time_s}, {"other", c.other}, {"closing_speed", c.closing_speed}});
   const Json json{{"kind", config.kind},
@@ -53,13 +53,14 @@ std::string metricsText(const SimulateConfig& config, const World& world, const 
   return json.dump(2) + "\n";
 }
 
-/// Has the first robot's planner say why it does what it does.
+/// Has the planner of the robot under test say why it does what it does.
 void askForReasons(const WorldScenario& scenario, World& world, PlanExplanation& explanation) {
-  const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
-  if (!watchFirstRobot(world, scenario, true, [&explanation](const PlanInput& in, const PlanOutput& out) {
+  const RobotParams& robot = robotUnderTest(scenario.world);
+  if (!watchRobotUnderTest(world, scenario, true, [&explanation](const PlanInput& in, const PlanOutput& out) {
         explanation.note(in.time_s, out);
       }))
-    throw ConfigError("--explain: the first robot is driven by " + robot.planner + ", which is no local planner");
+    throw ConfigError("--explain: the planner of the robot under test is " + robot.planner +
+                      ", which is no local planner");
 }
 
 void film(const WorldFigure& figure, const OutputFolder& folder) {
@@ -70,10 +71,10 @@ void film(const WorldFigure& figure, const OutputFolder& folder) {
 }
 
 /// A column for each planner of the command line, or one for the scenario's.
-void drawSnapshotsOf(const SimulateOptions& options, const SimulateConfig& config, const WorldInputs& inputs,
+void drawSnapshotsOf(const SimulateOptions& options, const Scenario& config, const WorldInputs& inputs,
                      const World& world, const OutputFolder& folder) {
   WorldScenario scenario = config.world;
-  std::string& planner = scenario.world.robots.at(scenario.world.robot_names[0]).planner;
+  std::string& planner = robotUnderTest(scenario.world).planner;
   const auto planners = options.planners.empty() ? std::vector<std::string>{planner} : options.planners;
   std::vector<double> times = options.snapshots_s;
   std::sort(times.begin(), times.end());
@@ -87,9 +88,10 @@ void drawSnapshotsOf(const SimulateOptions& options, const SimulateConfig& confi
 
 }  // namespace
 
-ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder) {
+ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder) {
   const WorldInputs inputs = readWorldInputs(config.world.world, options.scenario);
-  World world(config.world.world, static_cast<uint64_t>(config.seed), inputs, plannerDrivers(config.world.planners));
+  World world(config.world.world, static_cast<uint64_t>(config.seed), inputs,
+              navigatorControllers(config.world.planners));
   PlanExplanation explanation;
   if (options.explain) askForReasons(config.world, world, explanation);
   LogWriter log(folder.file("run.rawlog"), commandLine());
@@ -125,7 +127,8 @@ ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, 
   if (!options.snapshots_s.empty() && !interrupted()) drawSnapshotsOf(options, config, inputs, world, folder);
   const WorldSummary s = summarize(world);
   std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", folder.file("run.rawlog").c_str(),
-              s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m, world.contacts(0).contacts().size());
+              s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m,
+              world.contacts(world.robotUnderTest()).contacts().size());
   if (std::isfinite(s.min_clearance_m)) std::printf(", closest %.2f m", s.min_clearance_m);
   std::printf("\n");
   return interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;

@@ -7,6 +7,6 @@
 namespace sidestep {
 
 /// Runs a world scenario into `folder`: run.rawlog, trajectory.png, metrics.json, run.mp4 if asked for.
-ExitCode runWorld(const SimulateOptions& options, const SimulateConfig& config, const OutputFolder& folder);
+ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder);
 
 }  // namespace sidestep

@@ -11,7 +11,7 @@
 
 namespace sidestep {
 
-/// The first robot, those around it, and what its planner considered, at one time.
+/// The robot under test, those around it, and what its planner considered, at one time.
 struct PlanSnapshot {
   struct Line {
     std::vector<mrpt::math::TPoint2D> points;

@@ -6,7 +6,7 @@
 
 namespace sidestep {
 
-/// The first robot's runs over time, as figures 4.6, 4.7, 4.15 and 4.20 of the dissertation show them.
+/// Runs of a robot over time, as figures 4.6, 4.7, 4.15 and 4.20 of the dissertation show them.
 struct TimelineFigure {
   struct Sample {
     double time_s = 0;

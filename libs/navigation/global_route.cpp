@@ -23,10 +23,10 @@ TPoint2D place(const TPose2D& p) { return {p.x, p.y}; }
 /// A raster around walls and some points, with what is in the way.
 class Raster {
  public:
-  Raster(const DriverView& view, double resolution_m) {
-    double x_min = std::min(view.pose.x, view.goal.x), x_max = std::max(view.pose.x, view.goal.x);
-    double y_min = std::min(view.pose.y, view.goal.y), y_max = std::max(view.pose.y, view.goal.y);
-    for (const auto& wall : view.walls)
+  Raster(const Situation& now, double resolution_m) {
+    double x_min = std::min(now.pose.x, now.goal.x), x_max = std::max(now.pose.x, now.goal.x);
+    double y_min = std::min(now.pose.y, now.goal.y), y_max = std::max(now.pose.y, now.goal.y);
+    for (const auto& wall : now.walls)
       for (const auto& p : {wall.a, wall.b}) {
         x_min = std::min(x_min, p.x), x_max = std::max(x_max, p.x);
         y_min = std::min(y_min, p.y), y_max = std::max(y_max, p.y);
@@ -36,7 +36,7 @@ class Raster {
     frame_.width = 1 + static_cast<int>((x_max - x_min + 2 * kAround_m) / resolution_m);
     frame_.height = 1 + static_cast<int>((y_max - y_min + 2 * kAround_m) / resolution_m);
     blocked_.assign(static_cast<size_t>(frame_.width) * static_cast<size_t>(frame_.height), 0);
-    for (const auto& wall : view.walls) line(wall);
+    for (const auto& wall : now.walls) line(wall);
   }
   void disc(const TPoint2D& centre, double radius_m) {
     const int reach = 1 + static_cast<int>(radius_m / frame_.resolution_m);
@@ -80,39 +80,39 @@ void GlobalRouteParams::visit(ParamVisitor& v) {
 }
 
 /// Who stands, and whether the robot itself does.
-void GlobalRoute::note(const DriverView& view) {
+void GlobalRoute::note(const Situation& now) {
   const auto look = [&](Rest& rest, const TPoint2D& position, bool is_new) {
     if (!is_new && (position - rest.position).norm() < kMoved_m) return;
     rest.position = position;
-    rest.since_s = view.time_s;
+    rest.since_s = now.time_s;
   };
-  look(own_, place(view.pose), !planned_);
-  for (const auto& o : view.moving) {
+  look(own_, place(now.pose), !planned_);
+  for (const auto& o : now.moving) {
     const auto [it, is_new] = others_.try_emplace(o.id);
     it->second.radius_m = o.radius_m;
     look(it->second, o.position, is_new);
   }
 }
 
-bool GlobalRoute::isDue(const DriverView& view) const {
-  if (!planned_ || place(goal_) != place(view.goal) || view.time_s - own_.since_s > params_.patience_s) return true;
+bool GlobalRoute::isDue(const Situation& now) const {
+  if (!planned_ || place(goal_) != place(now.goal) || now.time_s - own_.since_s > params_.patience_s) return true;
   if (path_.empty()) return false;
   double nearest = 1e9;
-  for (const auto& p : path_) nearest = std::min(nearest, std::hypot(p.x - view.pose.x, p.y - view.pose.y));
+  for (const auto& p : path_) nearest = std::min(nearest, std::hypot(p.x - now.pose.x, p.y - now.pose.y));
   return nearest > params_.off_m + params_.spacing_m;
 }
 
-GlobalPath GlobalRoute::plan(const DriverView& view, bool around_standing) const {
-  Raster raster(view, params_.resolution_m);
+GlobalPath GlobalRoute::plan(const Situation& now, bool around_standing) const {
+  Raster raster(now, params_.resolution_m);
   if (around_standing)
     for (const auto& [id, rest] : others_)
-      if (view.time_s - rest.since_s >= params_.standing_s) raster.disc(rest.position, rest.radius_m);
+      if (now.time_s - rest.since_s >= params_.standing_s) raster.disc(rest.position, rest.radius_m);
   const auto field = std::make_shared<const DistanceField>(raster.field());
   GlobalPath out;
   for (const double margin : {params_.margin_m, 0.5 * params_.margin_m, 0.5 * params_.resolution_m}) {
     const double clearance = radius_m_ + margin;
-    const auto start = field->nearestFree(place(view.pose), clearance, kEndsWithin_m);
-    const auto goal = field->nearestFree(place(view.goal), clearance, kEndsWithin_m);
+    const auto start = field->nearestFree(place(now.pose), clearance, kEndsWithin_m);
+    const auto goal = field->nearestFree(place(now.goal), clearance, kEndsWithin_m);
     if (!start || !goal) continue;
     GlobalPlannerParams params;
     params.clearance_m = clearance;
@@ -123,9 +123,9 @@ GlobalPath GlobalRoute::plan(const DriverView& view, bool around_standing) const
   return out;
 }
 
-void GlobalRoute::setPath(const std::vector<TPose2D>& poses, const DriverView& view) {
+void GlobalRoute::setPath(const std::vector<TPose2D>& poses, const Situation& now) {
   path_.clear();
-  path_.push_back(view.pose);
+  path_.push_back(now.pose);
   const auto to = [&](const TPose2D& p) {
     const TPose2D from = path_.back();
     const double length = std::hypot(p.x - from.x, p.y - from.y);
@@ -136,22 +136,22 @@ void GlobalRoute::setPath(const std::vector<TPose2D>& poses, const DriverView& v
     }
   };
   for (const auto& p : poses) to(p);
-  to(view.goal);
+  to(now.goal);
 }
 
-const std::vector<TPose2D>& GlobalRoute::at(const DriverView& view) {
-  if (params_.planner == "none" || view.walls.empty()) return path_;
-  note(view);
-  if (!isDue(view)) return path_;
-  GlobalPath found = plan(view, true);
-  if (!found.found()) found = plan(view, false);
+const std::vector<TPose2D>& GlobalRoute::at(const Situation& now) {
+  if (params_.planner == "none" || now.walls.empty()) return path_;
+  note(now);
+  if (!isDue(now)) return path_;
+  GlobalPath found = plan(now, true);
+  if (!found.found()) found = plan(now, false);
   if (found.found())
-    setPath(found.poses, view);
+    setPath(found.poses, now);
   else
     path_.clear();
-  goal_ = view.goal;
+  goal_ = now.goal;
   planned_ = true;
-  own_ = {place(view.pose), view.time_s, 0};
+  own_ = {place(now.pose), now.time_s, 0};
   return path_;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/params.h"
+#include "navigation/situation.h"
 #include "planning/global/global_planner.h"
-#include "simulation/driver.h"
 
 namespace sidestep {
 
@@ -25,14 +25,14 @@ struct GlobalRouteParams {
 /// The global path of a robot among the walls it is told of, to whatever goal it has at the time.
 ///
 /// Planned when the goal is another one, when the robot is far off, and when it does not get on; around walls, and
-/// around those that it has seen standing (if there is a way around them). The same views give the same paths.
+/// around those that it has seen standing (if there is a way around them). The same situations give the same paths.
 class GlobalRoute {
  public:
   GlobalRoute(const GlobalRouteParams& params, double radius_m) : params_(params), radius_m_(radius_m) {}
 
-  /// The path for this view, points every `spacing_m`; empty without walls, or if there is none. Valid until the next
-  /// call.
-  const std::vector<mrpt::math::TPose2D>& at(const DriverView& view);
+  /// The path for this situation, points every `spacing_m`; empty without walls, or if there is none. Valid until the
+  /// next call.
+  const std::vector<mrpt::math::TPose2D>& at(const Situation& now);
 
  private:
   /// Where somebody, or the robot, was when it last moved.
@@ -41,10 +41,10 @@ class GlobalRoute {
     double since_s = 0;
     double radius_m = 0;
   };
-  void note(const DriverView& view);
-  bool isDue(const DriverView& view) const;
-  GlobalPath plan(const DriverView& view, bool around_standing) const;
-  void setPath(const std::vector<mrpt::math::TPose2D>& poses, const DriverView& view);
+  void note(const Situation& now);
+  bool isDue(const Situation& now) const;
+  GlobalPath plan(const Situation& now, bool around_standing) const;
+  void setPath(const std::vector<mrpt::math::TPose2D>& poses, const Situation& now);
 
   GlobalRouteParams params_;
   double radius_m_;

@@ -5,12 +5,10 @@
 
 #include <functional>
 
+#include "simulation/epoch.h"
 #include "simulation/localization_scenario.h"
 
 namespace sidestep {
-
-/// Unix time at which simulated runs begin [s]: no clock is read, so that the same run gives the same bytes.
-inline constexpr double kSimulationStart_s = 1.6e9;
 
 using ObservationSink = std::function<void(const mrpt::obs::CObservation&)>;
 

@@ -55,7 +55,8 @@ RobotStart drawRoute(const RobotParams& p, Random& random, std::span<const Perso
 RobotStart drawStart(const RobotParams& p, Random random, std::span<const Person> people, const WallIndex& walls) {
   if (p.route.length_m > 0) return drawRoute(p, random, people, walls);
   const double dx = p.start_shift_m * random.uniform(-1, 1), dy = p.start_shift_m * random.uniform(-1, 1);
-  return {{p.x_m + dx, p.y_m + dy, p.yaw}, {p.goal_x_m, p.goal_y_m}};
+  const double turn = p.start_turn > 0 ? p.start_turn * random.uniform(-1, 1) : 0;
+  return {{p.x_m + dx, p.y_m + dy, p.yaw + turn}, {p.goal_x_m, p.goal_y_m}};
 }
 
 }  // namespace sidestep

@@ -18,7 +18,7 @@ struct RobotStart {
   mrpt::math::TPoint2D goal;
 };
 
-/// As the parameters say, with what they leave to chance drawn: the shift of the start, or start and goal of a route,
+/// As the parameters say, with what they leave to chance drawn: the shift and turn of the start, or start and goal of a route,
 /// clear of walls and of whoever is there; it starts facing its goal.
 /// @throws ConfigError if no such route is found.
 RobotStart drawStart(const RobotParams& params, Random random, std::span<const Person> people, const WallIndex& walls);

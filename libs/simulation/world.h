@@ -1,65 +1,55 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
-#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "core/robot_port.h"
 #include "simulation/contacts.h"
-#include "simulation/driver.h"
-#include "simulation/localization_scenario.h"
+#include "simulation/controller.h"
+#include "simulation/robot_sensors.h"
 #include "simulation/world_params.h"
+#include "simulation/world_state.h"
 
 namespace sidestep {
 
-/// What a world needs besides its parameters: what was read from files.
-struct WorldInputs {
-  std::vector<Segment> walls;         ///< of a map, besides those of the parameters
-  std::vector<RecordedTrack> tracks;  ///< recorded people, time 0 at the start of the run
-};
-
-/// A robot at work.
-struct RobotState {
-  mrpt::math::TPose2D pose;      ///< true [m, rad]
-  mrpt::math::TTwist2D twist;    ///< over the ground, base frame
-  mrpt::math::TTwist2D command;  ///< last ordered
-  mrpt::math::TPose2D goal;      ///< the one it is on its way to
-  int goals_reached = 0;
-  double radius_m = 0;
-  bool arrived = false;  ///< at its last goal
-  std::optional<double> arrived_s;
-  double path_m = 0;
-};
-
-/// Robots and people among walls. The same parameters, inputs, seed and orders give the same world, bit by bit.
+/// Robots and people among walls. The same parameters, inputs, seed and commands give the same world, bit by bit.
 ///
-/// Time goes on by `step`; robots do what was last ordered by `order`. `drive` asks the drivers of all robots, as often
-/// as the control period says, and is all that a study needs; the live navigator orders by itself.
+/// Time goes on by `step`, in stages that hand values on: each control period all robots perceive, then their
+/// controllers command; in each step bodies move and touch (`WorldPhysics`), then sensors read. A robot without a
+/// controller does what `command` or its `robotPort` said last.
 class World {
  public:
-  /// @throws ConfigError as WorldParams::check, or from `factory`.
-  World(const WorldParams& params, uint64_t seed, WorldInputs inputs = {},
-        const DriverFactory& factory = makeSimpleDriver);
+  /// @throws ConfigError as WorldParams::check, or from `factory`; without a factory no robot has a controller.
+  World(const WorldParams& params, uint64_t seed, WorldInputs inputs = {}, const ControllerFactory& factory = {});
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   const WorldParams& params() const;
   double time() const;
-  /// True once time is over or the first robot has arrived.
+  /// True once time is over or the robot under test has arrived.
   bool finished() const;
 
   /// One step of simulation: people, robots, contacts, then sensors.
   void step();
-  /// Orders robot `i` about.
-  void order(size_t i, const mrpt::math::TTwist2D& command);
-  /// Replaces the driver of robot `i`; null: only `order` moves it.
-  void setDriver(size_t i, std::unique_ptr<Driver> driver);
+  /// Commands robot `i`.
+  void command(size_t i, const mrpt::math::TTwist2D& command);
+  /// Replaces the controller of robot `i`; null: only `command` and its port move it.
+  void setController(size_t i, std::unique_ptr<Controller> controller);
+  /// Robot `i` as a robot like any other; from now on it has sensors. Valid as long as the world.
+  RobotPort& robotPort(size_t i);
   /// Steps until `finished`, or until `each` (told after each step; may be empty) says false.
   void run(const std::function<bool()>& each = {});
 
   const std::vector<RobotState>& robots() const;
+  /// Number of the robot that the run is about: the one that the parameters name, or the first.
+  size_t robotUnderTest() const;
+  const RobotState& underTest() const { return robots()[robotUnderTest()]; }
   const std::vector<Person>& people() const;
   const WallIndex& walls() const;
   /// Clearance and contacts of robot `i`.
@@ -68,11 +58,13 @@ class World {
   /// after those of people), as perceived at the last control step.
   std::span<const MovingObstacle> perceived(size_t i) const;
 
-  /// What the first robot's sensors said in this step; truth and odometry always.
-  const SensorStep& sensed() const;
+  /// The sensors of the robot under test.
+  const RobotSensors& sensors() const;
+  /// What they said in this step; truth and odometry always.
+  const SensorStep& sensed() const { return sensors().sensed(); }
   /// The scan of this step, if there was one.
-  const LaserScanner* scan() const;
-  /// Whether drivers were asked in this step.
+  const LaserScanner* scan() const { return sensors().scan(); }
+  /// Whether controllers were asked in this step.
   bool controlled() const;
 
  private:
@@ -80,7 +72,7 @@ class World {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What a run came to, for the first robot.
+/// What a run came to, for the robot under test.
 struct WorldSummary {
   bool success = false;  ///< arrived, and without contact
   bool arrived = false;

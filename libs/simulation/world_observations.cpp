@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/world_observations.h"
 
-#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationRawDAQ.h>
 
 #include <cmath>
@@ -25,13 +24,13 @@ mrpt::obs::CObservationRawDAQ channels(const char* label, double time_s, const s
 WorldReporter::WorldReporter(const World& world) : world_(world), people_clock_(world.params().people_record_hz) {}
 
 void WorldReporter::tell(const ObservationSink& sink) {
-  tellObservations(world_.sensed(), world_.params().encoders, world_.params().gps, sink);
+  world_.sensors().tellStep(sink);
   if (world_.controlled()) {
-    // Ordered at the beginning of this step.
-    const auto& command = world_.robots()[0].command;
+    // Commanded at the beginning of this step.
+    const auto& command = world_.underTest().command;
     sink(channels("command", world_.time(), {command.vx, command.omega}, 2));
   }
-  if (world_.scan() != nullptr) tellScan(*world_.scan(), sink);
+  world_.sensors().tellScan(sink);
   if (people_clock_.due(world_.time())) tellPeople(sink);
 }
 
@@ -43,32 +42,13 @@ void WorldReporter::tellPeople(const ObservationSink& sink) const {
   const auto& people = world_.people();
   for (const Person& p : people)
     if (p.present) add(static_cast<size_t>(p.id), p.position.x, p.position.y, p.velocity.x, p.velocity.y, p.radius_m);
-  for (size_t k = 1; k < world_.robots().size(); ++k) {
+  for (size_t k = 0; k < world_.robots().size(); ++k) {
+    if (k == world_.robotUnderTest()) continue;
     const RobotState& r = world_.robots()[k];
     add(people.size() + k, r.pose.x, r.pose.y, r.twist.vx * std::cos(r.pose.phi), r.twist.vx * std::sin(r.pose.phi),
         r.radius_m);
   }
   if (!values.empty()) sink(channels("people", world_.time(), values, 9));
-}
-
-void WorldReporter::tellScan(const LaserScanner& scan, const ObservationSink& sink) const {
-  const LaserParams& p = scan.params();
-  mrpt::obs::CObservation2DRangeScan o;
-  o.sensorLabel = "laser";
-  o.timestamp = mrpt::Clock::fromDouble(kSimulationStart_s + world_.time());
-  o.rightToLeft = true;
-  o.aperture = static_cast<float>(p.field);
-  o.maxRange = static_cast<float>(p.range_m);
-  o.stdError = static_cast<float>(p.range_sd_m);
-  o.sensorPose = mrpt::poses::CPose3D(p.x_m, p.y_m, 0, p.yaw, 0, 0);
-  const auto& ranges = scan.ranges();
-  o.resizeScan(ranges.size());
-  for (size_t i = 0; i < ranges.size(); ++i) {
-    const bool seen = std::isfinite(ranges[i]);
-    o.setScanRange(i, static_cast<float>(seen ? ranges[i] : 0));
-    o.setScanRangeValidity(i, seen);
-  }
-  sink(o);
 }
 
 }  // namespace sidestep

@@ -6,9 +6,9 @@
 
 namespace sidestep {
 
-/// Writes a world as it goes on: `odometry`, `imu`, `gps`, `ground_truth`, `laser` of the first robot; `command`
-/// whenever it is ordered about; `people`: all who are there, and the other robots with ids after theirs, as they truly
-/// are.
+/// Writes a world as it goes on: `odometry`, `imu`, `gps`, `ground_truth`, `laser` of the robot under test;
+/// `command` whenever it is commanded; `people`: all who are there, and the other robots with ids after theirs, as they
+/// truly are.
 class WorldReporter {
  public:
   explicit WorldReporter(const World& world);
@@ -17,7 +17,6 @@ class WorldReporter {
 
  private:
   void tellPeople(const ObservationSink& sink) const;
-  void tellScan(const LaserScanner& scan, const ObservationSink& sink) const;
 
   const World& world_;
   SampleClock people_clock_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/obstacles.h"
 #include "core/params.h"
 #include "core/robot_limits.h"
 #include "simulation/crowd.h"
@@ -30,10 +31,11 @@ struct RobotParams {
   double goal_x_m = 0, goal_y_m = 0, goal_tolerance_m = 0.3;
   Table goals;               ///< x, y: to be reached one after the other; empty: the one above
   double start_shift_m = 0;  ///< start: at random within so much in x and y
+  double start_turn = 0;     ///< start: at random within so much to either side [rad]
   double start_speed = 0;    ///< m/s
   RouteParams route;
   std::string planner = "straight";
-  bool sees_robot = true;  ///< false: the first robot does not exist for it
+  bool sees_robot = true;  ///< false: the robot under test does not exist for it
   RobotLimits limits;
   DriveParams drive;
   PerceptionParams perception;
@@ -47,9 +49,11 @@ struct WallParams {
   bool closed = false;
 
   void visit(ParamVisitor& v);
+  /// The pieces between the corners.
+  std::vector<Segment> segments() const;
 };
 
-/// A world in which robots and people move. Names say who is who; the first robot is the one under test.
+/// A world in which robots and people move. Names say who is who.
 struct WorldParams {
   double step_s = 0.01;
   double control_period_s = 0.05;
@@ -58,6 +62,7 @@ struct WorldParams {
   std::string map, tracks;  ///< files, which whoever makes the world reads
   double tracks_from_s = 0, tracks_shift_s = 0;
   std::vector<std::string> wall_names, robot_names, people_names;
+  std::string under_test;  ///< name of the robot that the run is about; empty: the first
   std::map<std::string, WallParams> walls;
   std::map<std::string, RobotParams> robots;
   std::map<std::string, PeopleParams> people;
@@ -71,6 +76,8 @@ struct WorldParams {
   void visit(ParamVisitor& v);
   /// @throws ConfigError for what the ranges of single parameters do not catch.
   void check() const;
+  /// Number of the robot under test.
+  size_t underTest() const;
 };
 
 }  // namespace sidestep

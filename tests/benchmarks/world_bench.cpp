@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "evaluation/experiments/world_controllers.h"
 #include "simulation/localization_scenario.h"
 #include "simulation/world.h"
 
@@ -43,7 +44,7 @@ WorldParams square(int people, int beams, double step_s) {
 void BM_World(benchmark::State& state) {
   World world(square(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)),
                      0.001 * static_cast<double>(state.range(2))),
-              1);
+              1, {}, navigatorControllers());
   for (int i = 0; i < 500; ++i) world.step();
   const double begin = world.time();
   for (auto _ : state) world.step();

@@ -68,6 +68,22 @@ TEST(RobotStart, NoPlaceIsAnErrorThatSaysWhatToDo) {
   EXPECT_THROW(p.check(), ConfigError);
 }
 
+TEST(RobotStart, AStartMayBeTurnedAtRandomWithoutMovingIt) {
+  RobotParams p;
+  p.start_shift_m = 0.5;
+  const RobotStart as_given = drawStart(p, Random(3, 1), {}, {});
+  p.start_turn = 0.4;
+  double least = 1, most = -1;
+  for (uint64_t seed = 1; seed <= 100; ++seed) {
+    const double yaw = drawStart(p, Random(seed, 1), {}, {}).pose.phi;
+    least = std::min(least, yaw), most = std::max(most, yaw);
+  }
+  EXPECT_TRUE(least >= -0.4 && least < -0.3) << least;
+  EXPECT_TRUE(most <= 0.4 && most > 0.3) << most;
+  EXPECT_EQ(drawStart(p, Random(3, 1), {}, {}).pose.x, as_given.pose.x);
+  EXPECT_EQ(as_given.pose.phi, 0);
+}
+
 TEST(World, RecordedPeopleAreMetAtATimeThatTheSeedSays) {
   WorldParams p;
   p.robot_names = {"robot"};

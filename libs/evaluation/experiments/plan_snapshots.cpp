@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "navigation/planner_driver.h"
+#include "evaluation/experiments/world_controllers.h"
 
 namespace sidestep {
 namespace {
@@ -13,14 +13,15 @@ using mrpt::math::TPoint2D;
 
 PlanSnapshot snapshotOf(const World& world, const PlanInput& in, const PlanOutput& out,
                         const std::vector<TPoint2D>& driven) {
-  const RobotState& robot = world.robots()[0];
+  const RobotState& robot = world.underTest();
   PlanSnapshot s{in.time_s, robot.pose, robot.radius_m, {robot.goal.x, robot.goal.y}, {}, driven, {}, out.reason};
   for (const Person& p : world.people()) {
     if (!p.present) continue;
     MovingObstacle& o = s.others.emplace_back();
     o.id = p.id, o.position = p.position, o.velocity = p.velocity, o.radius_m = p.radius_m;
   }
-  for (size_t k = 1; k < world.robots().size(); ++k) {
+  for (size_t k = 0; k < world.robots().size(); ++k) {
+    if (k == world.robotUnderTest()) continue;
     const RobotState& r = world.robots()[k];
     MovingObstacle& o = s.others.emplace_back();
     o.position = {r.pose.x, r.pose.y}, o.radius_m = r.radius_m;
@@ -41,14 +42,14 @@ PlanSnapshot snapshotOf(const World& world, const PlanInput& in, const PlanOutpu
 std::vector<PlanSnapshot> takeSnapshots(const WorldScenario& scenario, uint64_t seed, const WorldInputs& inputs,
                                         const std::vector<double>& times_s) {
   std::vector<PlanSnapshot> out;
-  World world(scenario.world, seed, inputs, plannerDrivers(scenario.planners));
+  World world(scenario.world, seed, inputs, navigatorControllers(scenario.planners));
   std::vector<TPoint2D> driven;
   const auto watch = [&](const PlanInput& in, const PlanOutput& plan) {
     driven.emplace_back(in.pose.x, in.pose.y);
     while (out.size() < times_s.size() && in.time_s + 1e-9 >= times_s[out.size()])
       out.push_back(snapshotOf(world, in, plan, driven));
   };
-  if (!watchFirstRobot(world, scenario, true, watch)) return out;
+  if (!watchRobotUnderTest(world, scenario, true, watch)) return out;
   world.run([&] { return out.size() < times_s.size(); });
   return out;
 }

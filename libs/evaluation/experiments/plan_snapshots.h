@@ -11,7 +11,7 @@ namespace sidestep {
 /// Runs a world until the last of `times_s`, or to its end, and looks at the first plan from each of them on. The plans
 /// are those of a run that is not looked at.
 /// @param times_s  not decreasing
-/// @return none if the first robot is not driven by a local planner
+/// @return none if the robot under test has no local planner
 std::vector<PlanSnapshot> takeSnapshots(const WorldScenario& scenario, uint64_t seed, const WorldInputs& inputs,
                                         const std::vector<double>& times_s);
 

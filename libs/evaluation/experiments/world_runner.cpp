@@ -12,12 +12,13 @@
 #include "core/errors.h"
 #include "core/overlay_yaml.h"
 #include "core/random.h"
+#include "evaluation/experiments/scenario.h"
+#include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/experiments/world_scenario.h"
 #include "evaluation/metrics/collision_index.h"
 #include "evaluation/study/study.h"
 #include "figures/timeline_figure.h"
-#include "navigation/planner_driver.h"
 
 namespace sidestep {
 namespace {
@@ -35,10 +36,11 @@ struct AlgorithmEntry {
   std::string robot, others, sees_robot = "unchanged", set;
 
   void visit(ParamVisitor& v) {
-    v.text("robot", robot, "who drives the first robot; empty: as the scenario says");
+    v.text("robot", robot, "planner of the robot under test; empty: as the scenario says");
     v.section("others", "all other robots", [this](ParamVisitor& w) {
-      w.text("planner", others, "who drives them; empty: as the scenario says");
-      w.choice("sees_robot", sees_robot, {"unchanged", "true", "false"}, "whether the first robot exists for them");
+      w.text("planner", others, "their planner; empty: as the scenario says");
+      w.choice("sees_robot", sees_robot, {"unchanged", "true", "false"},
+               "whether the robot under test exists for them");
     });
     v.overlay("set", set, "what the algorithm changes in each scenario, for example parameters of planners");
   }
@@ -46,9 +48,10 @@ struct AlgorithmEntry {
     if (!isBlank(set)) s.layOver(set, where);
     for (size_t i = 0; i < s.world.robot_names.size(); ++i) {
       RobotParams& r = s.world.robots[s.world.robot_names[i]];
-      const std::string& planner = i == 0 ? robot : others;
+      const bool tested = i == s.world.underTest();
+      const std::string& planner = tested ? robot : others;
       if (!planner.empty()) r.planner = planner;
-      if (i > 0 && sees_robot != "unchanged") r.sees_robot = sees_robot == "true";
+      if (!tested && sees_robot != "unchanged") r.sees_robot = sees_robot == "true";
     }
   }
 };
@@ -58,8 +61,6 @@ struct Axis {
   const char* name;
   void (*set)(WorldParams& p, double x);
 };
-
-RobotParams& firstRobot(WorldParams& p) { return p.robots[p.robot_names[0]]; }
 
 const Axis kAxes[] = {
     {"people",
@@ -71,9 +72,9 @@ const Axis kAxes[] = {
        for (const auto& name : p.people_names) p.people[name].speed = x;
      }},
     {"robot_room_m", [](WorldParams& p, double x) { p.social_force.robot_room_m = x; }},
-    {"latency_s", [](WorldParams& p, double x) { firstRobot(p).drive.latency_s = x; }},
-    {"position_sd_m", [](WorldParams& p, double x) { firstRobot(p).perception.position_sd_m = x; }},
-    {"velocity_sd", [](WorldParams& p, double x) { firstRobot(p).perception.velocity_sd = x; }},
+    {"latency_s", [](WorldParams& p, double x) { robotUnderTest(p).drive.latency_s = x; }},
+    {"position_sd_m", [](WorldParams& p, double x) { robotUnderTest(p).perception.position_sd_m = x; }},
+    {"velocity_sd", [](WorldParams& p, double x) { robotUnderTest(p).perception.velocity_sd = x; }},
 };
 
 class WorldRunner final : public StudyRunner {
@@ -84,9 +85,10 @@ class WorldRunner final : public StudyRunner {
     if (scenarios_.size() <= index) scenarios_.resize(index + 1);
     v.text("file", scenarios_[index].file, "a world, a YAML of sidestep-simulate; relative to the study's folder");
     v.overlay("set", scenarios_[index].set, "what is changed in that world");
-    v.choice("goals", scenarios_[index].goals, {"all", "one"},
-             "of a first robot with several goals: all of them; or the one that the run's seed says, from the place of "
-             "the one before it (the first one from the start), facing it");
+    v.choice(
+        "goals", scenarios_[index].goals, {"all", "one"},
+        "of a robot under test with several goals: all of them; or the one that the run's seed says, from the place of "
+        "the one before it (the first one from the start), facing it");
   }
   void visitAlgorithm(size_t index, ParamVisitor& v) override {
     if (algorithms_.size() <= index) algorithms_.resize(index + 1);
@@ -129,16 +131,9 @@ std::string fromAnywhere(const std::string& path, const std::string& scenario_fi
 
 /// The scenario's file and changes; from then on all of it stands in `set`.
 WorldScenario WorldRunner::load(ScenarioEntry& s, const std::string& where) const {
-  WorldScenario world;
-  std::string kind = "world";
-  int seed = 1;
-  const Visit file_fields = [&](ParamVisitor& v) {
-    v.choice("kind", kind, {"world"}, "what the scenario is about");
-    v.integer("seed", seed, {0, 2e9}, "not used in a study");
-    world.visit(v);
-  };
   const std::string file = s.file.empty() ? file_ : resolvedPath(s.file, file_);
-  if (!s.file.empty()) readYaml(file, file_fields);
+  WorldScenario world;
+  if (!s.file.empty()) world = readWorldScenario(file);
   if (!isBlank(s.set)) world.layOver(s.set, file_);
   try {
     world.check();
@@ -183,8 +178,8 @@ void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::
 /// A run, with what is noted on the way.
 struct WatchedRun {
   WatchedRun(const WorldScenario& scenario, const WorldInputs& inputs, uint64_t seed)
-      : world(scenario.world, seed, inputs, plannerDrivers(scenario.planners)), recorder(world) {
-    watchFirstRobot(world, scenario, false, [this](const PlanInput&, const PlanOutput& out) { count(out); });
+      : world(scenario.world, seed, inputs, navigatorControllers(scenario.planners)), recorder(world) {
+    watchRobotUnderTest(world, scenario, false, [this](const PlanInput&, const PlanOutput& out) { count(out); });
     world.run([this] {
       recorder.note();
       return true;
@@ -214,7 +209,7 @@ WatchedRun runOf(const ScenarioEntry& s, const std::string& axis, const StudyPla
   const WorldScenario& base = s.worlds[place.algorithm];
   if (!place.x && s.goals == "all") return WatchedRun(base, *s.inputs[place.algorithm], place.world_seed);
   WorldScenario varied = base;
-  if (s.goals == "one") keepOneGoal(firstRobot(varied.world), place.world_seed);
+  if (s.goals == "one") keepOneGoal(robotUnderTest(varied.world), place.world_seed);
   if (!place.x) return WatchedRun(varied, *s.inputs[place.algorithm], place.world_seed);
   for (const Axis& a : kAxes)
     if (axis == a.name) a.set(varied.world, *place.x);

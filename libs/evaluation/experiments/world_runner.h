@@ -8,8 +8,8 @@
 
 namespace sidestep {
 
-/// Studies of kind `world`: a scenario is a world of sidestep-simulate (`file`, `set`); an algorithm says who drives
-/// its first robot (`robot`) and the others (`others`), and what it changes besides (`set`).
+/// Studies of kind `world`: a scenario is a world of sidestep-simulate (`file`, `set`); an algorithm says which
+/// planners the robot under test (`robot`) and the others (`others`) have, and what it changes besides (`set`).
 std::unique_ptr<StudyRunner> makeWorldRunner(const std::string& study_file);
 
 }  // namespace sidestep

@@ -8,8 +8,8 @@
 #include "core/data_path.h"
 #include "core/errors.h"
 #include "datasets/track_file.h"
+#include "evaluation/experiments/world_controllers.h"
 #include "maps/map_file.h"
-#include "navigation/planner_driver.h"
 #include "simulation/map_walls.h"
 
 namespace sidestep {
@@ -39,7 +39,7 @@ void WorldScenario::layOver(const std::string& yaml, const std::string& name) {
 
 void WorldScenario::check() const {
   world.check();
-  const DriverFactory make = plannerDrivers(planners);
+  const ControllerFactory make = navigatorControllers(planners);
   for (const auto& name : world.robot_names) {
     const RobotParams& robot = world.robots.at(name);
     try {
@@ -50,12 +50,18 @@ void WorldScenario::check() const {
   }
 }
 
-bool watchFirstRobot(World& world, const WorldScenario& scenario, bool explain, PlanWatch watch) {
-  const RobotParams& robot = scenario.world.robots.at(scenario.world.robot_names[0]);
+RobotParams& robotUnderTest(WorldParams& world) { return world.robots.at(world.robot_names[world.underTest()]); }
+const RobotParams& robotUnderTest(const WorldParams& world) {
+  return world.robots.at(world.robot_names[world.underTest()]);
+}
+
+bool watchRobotUnderTest(World& world, const WorldScenario& scenario, bool explain, PlanWatch watch) {
+  const RobotParams& robot = robotUnderTest(scenario.world);
   if (!isLocalPlanner(robot.planner)) return false;
   auto planner = makeLocalPlanner(robot.planner, scenario.planners.planners);
   planner->explain(explain);
-  world.setDriver(0, makePlannerDriver(std::move(planner), robot.limits, scenario.planners, std::move(watch)));
+  world.setController(world.robotUnderTest(),
+                      makeNavigatorController(std::move(planner), robot.limits, scenario.planners, std::move(watch)));
   return true;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "navigation/planner_driver.h"
+#include "navigation/local_navigator.h"
 #include "simulation/world.h"
 
 namespace sidestep {
@@ -11,7 +11,7 @@ namespace sidestep {
 /// What a scenario of kind `world` holds: the world, and the parameters of the planners in it.
 struct WorldScenario {
   WorldParams world;
-  DriverParams planners;
+  LocalNavigatorParams planners;
 
   void visit(ParamVisitor& v);
   /// Lays `yaml` over it. Walls, robots and people that it does not name stay, before the new ones.
@@ -21,11 +21,15 @@ struct WorldScenario {
   void check() const;
 };
 
-/// Has what the first robot's planner is asked and answers told to `watch`; it drives on as `plannerDrivers` would have
-/// it.
+/// The parameters of the robot under test.
+RobotParams& robotUnderTest(WorldParams& world);
+const RobotParams& robotUnderTest(const WorldParams& world);
+
+/// Has what the planner of the robot under test is asked and answers told to `watch`; it commands on as the one of
+/// `navigatorControllers` would.
 /// @param explain  the planner says of each candidate why it lost
-/// @return false if the first robot is driven by no local planner: nothing is watched
-bool watchFirstRobot(World& world, const WorldScenario& scenario, bool explain, PlanWatch watch);
+/// @return false if that robot has no local planner: nothing is watched
+bool watchRobotUnderTest(World& world, const WorldScenario& scenario, bool explain, PlanWatch watch);
 
 /// A file that a scenario names: ${NAME} is the environment's; a relative path is meant from here or, if nothing is
 /// there, from the scenario's own folder.

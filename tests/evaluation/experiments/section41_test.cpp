@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_scenario.h"
 #include "evaluation/study/study.h"
-#include "navigation/planner_driver.h"
 
 namespace sidestep::testing {
 namespace {
@@ -73,7 +73,7 @@ TEST(Section41, AGoalInsideTheTurningCircleIsReachedAllTheSame) {
                   ", start_speed: 1, goal_y_m: 2, goal_tolerance_m: 0.5, limits: {v_max: 1, w_max: 0.35, accel: 1, "
                   "brake: 1, turn_accel: 1}}}}",
               "test");
-    World world(s.world, 1, {}, plannerDrivers(s.planners));
+    World world(s.world, 1, {}, navigatorControllers(s.planners));
     world.run();
     EXPECT_TRUE(summarize(world).arrived) << name;
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/experiments/plan_snapshots.h"
+#include "evaluation/experiments/world_controllers.h"
 
 namespace sidestep {
 namespace {
@@ -23,7 +24,7 @@ int contactsIn(const std::string& planner, int seeds) {
   const WorldScenario scenario = crossing(planner);
   int out = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    World world(scenario.world, static_cast<uint64_t>(seed), {}, plannerDrivers(scenario.planners));
+    World world(scenario.world, static_cast<uint64_t>(seed), {}, navigatorControllers(scenario.planners));
     world.run();
     out += summarize(world).collision ? 1 : 0;
   }
@@ -47,7 +48,7 @@ TEST(TebCrossing, SnapshotsHoldAllCandidatesAndAreOfTheSameRun) {
   EXPECT_GE(snapshots[0].candidates.size(), 2u);
   // whoever is looked at drives as if nobody looked
   const WorldScenario scenario = crossing("teb");
-  World world(scenario.world, 1, {}, plannerDrivers(scenario.planners));
+  World world(scenario.world, 1, {}, navigatorControllers(scenario.planners));
   while (world.time() < 3 - 1e-9) world.step();
   EXPECT_DOUBLE_EQ(world.robots()[0].pose.x, snapshots[1].robot.x);
   EXPECT_DOUBLE_EQ(world.robots()[0].pose.y, snapshots[1].robot.y);

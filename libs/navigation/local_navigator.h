@@ -4,11 +4,12 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "navigation/global_route.h"
+#include "navigation/situation.h"
 #include "perception/motion_predictor.h"
 #include "planning/planners.h"
-#include "simulation/driver.h"
 
 namespace sidestep {
 
@@ -22,28 +23,42 @@ struct TrackingParams {
 };
 
 /// Local planners, and what they are told.
-struct DriverParams {
+struct LocalNavigatorParams {
   LocalPlannerParams planners;
   TrackingParams tracking;
   GlobalRouteParams path;
 
-  DriverParams() = default;
+  LocalNavigatorParams() = default;
   // planners alone are all that most worlds say, hence not explicit
-  DriverParams(const LocalPlannerParams& p) : planners(p) {}
+  LocalNavigatorParams(const LocalPlannerParams& p) : planners(p) {}
   void visit(ParamVisitor& v);
 };
 
 /// Is told what a planner was asked and what it answered, once a control period.
 using PlanWatch = std::function<void(const PlanInput&, const PlanOutput&)>;
 
-/// A local planner at the wheel of a simulated robot: goes for the goal with what is perceived, and knows nothing else.
-/// Where the base is behind its orders (lag, latency), it plans from where the robot will be by then.
-std::unique_ptr<Driver> makePlannerDriver(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
-                                          const DriverParams& params = {}, PlanWatch watch = {});
+/// A local planner and all that it is told: the global path, those who move as tracked and predicted, and, where the
+/// base lags behind its commands, the pose at which the next command shows. It knows nothing but the situations given.
+class LocalNavigator {
+ public:
+  LocalNavigator(std::unique_ptr<LocalPlanner> planner, const RobotLimits& limits,
+                 const LocalNavigatorParams& params = {}, PlanWatch watch = {});
 
-/// Makes the drivers of a world's robots: local planners by name. The factory may outlive `params`.
-/// @throws ConfigError when called with a name that is none, with all names
-DriverFactory plannerDrivers(const DriverParams& params);
+  /// The velocity to command now, in the base frame. Times must not decrease.
+  mrpt::math::TTwist2D command(const Situation& now);
+
+ private:
+  std::span<const MovingObstacle> moving(const Situation& now);
+
+  std::unique_ptr<LocalPlanner> planner_;
+  RobotLimits limits_;
+  TrackingParams tracking_;
+  MotionPredictor predictor_;
+  GlobalRoute route_;
+  PlanWatch watch_;
+  PlanOutput out_;
+  std::vector<MovingObstacle> moving_;
+};
 
 /// Whether a local planner of that name considers anything, so that its plans can be watched.
 bool isLocalPlanner(const std::string& name);

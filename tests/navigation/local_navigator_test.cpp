@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "navigation/planner_driver.h"
+#include "navigation/local_navigator.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/errors.h"
+#include "evaluation/experiments/world_controllers.h"
 #include "simulation/world.h"
 
 namespace sidestep {
@@ -23,7 +24,7 @@ class Shy final : public LocalPlanner {
   void reset() override {}
 };
 
-TEST(PlannerDriver, ALocalPlannerDrivesWithWhatIsPerceived) {
+TEST(LocalNavigator, ALocalPlannerDrivesWithWhatIsPerceived) {
   WorldParams p;
   p.robot_names = {"robot"};
   RobotParams& robot = p.robots["robot"];
@@ -35,7 +36,7 @@ TEST(PlannerDriver, ALocalPlannerDrivesWithWhatIsPerceived) {
   PeopleParams& one = p.people["one"];
   one.model = "straight", one.speed = 0, one.x_m = one.goal_x_m = 6;
   World world(p, 1, {}, [](const std::string&, const RobotLimits& limits) {
-    return makePlannerDriver(std::make_unique<Shy>(), limits);
+    return makeNavigatorController(std::make_unique<Shy>(), limits);
   });
   world.run();
   // It sees the person from 3 m off, at x = 3, and brakes from 0.7 m/s at 0.5 m/s^2: 0.49 m, plus up to one period.
@@ -63,25 +64,25 @@ class Listener final : public LocalPlanner {
   Told& told_;
 };
 
-DriverView viewAt(double time_s, const mrpt::math::TPose2D& pose, std::span<const Segment> walls,
+Situation situationAt(double time_s, const mrpt::math::TPose2D& pose, std::span<const Segment> walls,
                   std::span<const MovingObstacle> moving) {
-  DriverView view;
-  view.time_s = time_s, view.pose = pose, view.goal = {10, 0, 0};
-  view.walls = walls, view.moving = moving, view.period_s = 0.1;
-  return view;
+  Situation now;
+  now.time_s = time_s, now.pose = pose, now.goal = {10, 0, 0};
+  now.walls = walls, now.moving = moving, now.period_s = 0.1;
+  return now;
 }
 
-TEST(PlannerDriver, TheFilterFindsVelocitiesAndPredictsWithDoubt) {
+TEST(LocalNavigator, TheFilterFindsVelocitiesAndPredictsWithDoubt) {
   Told told;
-  DriverParams params;
+  LocalNavigatorParams params;
   params.tracking.filter = "constant_velocity";
-  const auto driver = makePlannerDriver(std::make_unique<Listener>(told), {}, params);
+  LocalNavigator navigator(std::make_unique<Listener>(told), {}, params);
   MovingObstacle walker;
   walker.id = 3;
   for (int k = 0; k < 30; ++k) {
     walker.position = {5, 0.1 * k};  // 1 m/s to the left; what is said of the velocity is not believed
     walker.velocity = {-7, 0};
-    driver->drive(viewAt(0.1 * k, {}, {}, {&walker, 1}));
+    navigator.command(situationAt(0.1 * k, {}, {}, {&walker, 1}));
   }
   ASSERT_EQ(told.moving.size(), 1u);
   EXPECT_NEAR(told.moving[0].velocity.x, 0, 0.02);
@@ -89,7 +90,7 @@ TEST(PlannerDriver, TheFilterFindsVelocitiesAndPredictsWithDoubt) {
   ASSERT_GT(told.moving[0].predicted.size(), 4u);
   EXPECT_GT(told.moving[0].predicted[4].covariance(0, 0), told.moving[0].predicted[0].covariance(0, 0));
   // not seen for half a second it is still there, farther on
-  driver->drive(viewAt(3.4, {}, {}, {}));
+  navigator.command(situationAt(3.4, {}, {}, {}));
   ASSERT_EQ(told.moving.size(), 1u);
   EXPECT_NEAR(told.moving[0].position.y, 3.4, 0.05);
 }
@@ -100,15 +101,15 @@ double clearanceOf(const std::vector<mrpt::math::TPose2D>& path, const mrpt::mat
   return out;
 }
 
-TEST(PlannerDriver, ARouteLeadsAroundWallsAndThoseWhoStandAndIsPlannedAnewForAnotherGoal) {
+TEST(LocalNavigator, ARouteLeadsAroundWallsAndThoseWhoStandAndIsPlannedAnewForAnotherGoal) {
   Told told;
-  DriverParams params;
+  LocalNavigatorParams params;
   params.path.planner = "astar";
-  const auto driver = makePlannerDriver(std::make_unique<Listener>(told), {}, params);
+  LocalNavigator navigator(std::make_unique<Listener>(told), {}, params);
   // a room with a wall across the straight way, open above y = 2
   const std::vector<Segment> walls = {
       {{-2, -5}, {12, -5}}, {{12, -5}, {12, 5}}, {{12, 5}, {-2, 5}}, {{-2, 5}, {-2, -5}}, {{5, -5}, {5, 2}}};
-  driver->drive(viewAt(0, {}, walls, {}));
+  navigator.command(situationAt(0, {}, walls, {}));
   ASSERT_GT(told.path.size(), 10u);
   EXPECT_NEAR(told.path.back().x, 10, 1e-9);
   // the wall's end is at (5, 2): 0.3 m of robot, 0.3 m of room; points are 0.5 m apart, and the map's cells 0.1 m
@@ -121,21 +122,21 @@ TEST(PlannerDriver, ARouteLeadsAroundWallsAndThoseWhoStandAndIsPlannedAnewForAno
   // somebody stands in that way, seen for three seconds; the robot stands too, and after its patience looks for another
   MovingObstacle standing;
   standing.position = {5, 2.7};
-  for (int k = 1; k <= 60; ++k) driver->drive(viewAt(0.1 * k, {}, walls, {&standing, 1}));
+  for (int k = 1; k <= 60; ++k) navigator.command(situationAt(0.1 * k, {}, walls, {&standing, 1}));
   EXPECT_GT(clearanceOf(told.path, standing.position), 0.75);
 
-  DriverView other = viewAt(6.1, {}, walls, {});
+  Situation other = situationAt(6.1, {}, walls, {});
   other.goal = {0, 4, 0};
-  driver->drive(other);
+  navigator.command(other);
   EXPECT_NEAR(told.path.back().y, 4, 1e-9);
   EXPECT_LT(told.path.size(), 12u);
 }
 
-TEST(PlannerDriver, WithoutWallsThereIsNoPath) {
+TEST(LocalNavigator, WithoutWallsThereIsNoPath) {
   Told told;
-  DriverParams params;
+  LocalNavigatorParams params;
   params.path.planner = "astar";
-  makePlannerDriver(std::make_unique<Listener>(told), {}, params)->drive(viewAt(0, {}, {}, {}));
+  LocalNavigator(std::make_unique<Listener>(told), {}, params).command(situationAt(0, {}, {}, {}));
   EXPECT_TRUE(told.path.empty());
 }
 
@@ -148,13 +149,13 @@ double timeFor12m(const std::string& planner, double lag_s, double latency_s) {
   robot.goal_x_m = 12;
   robot.drive.lag_s = lag_s;
   robot.drive.latency_s = latency_s;
-  World world(p, 1, {}, plannerDrivers({}));
+  World world(p, 1, {}, navigatorControllers());
   world.run();
   EXPECT_TRUE(world.robots()[0].arrived) << planner;
   return world.time();
 }
 
-TEST(PlannerDriver, ABaseThatIsBehindItsOrdersIsDrivenAboutAsFast) {
+TEST(LocalNavigator, ABaseThatIsBehindItsOrdersIsDrivenAboutAsFast) {
   // Orders that are bounded by how the base moves now would let it speed up by a fraction of what it can only: each
   // period it is asked for a bit more than it has, and gives a part of that.
   for (const std::string planner : {"dwa", "edwa", "hrvo"}) {
@@ -165,8 +166,8 @@ TEST(PlannerDriver, ABaseThatIsBehindItsOrdersIsDrivenAboutAsFast) {
   }
 }
 
-TEST(PlannerDriver, AreMadeForEveryNameOfTheTableAndNoOther) {
-  const auto factory = plannerDrivers({});
+TEST(LocalNavigator, AreMadeForEveryNameOfTheTableAndNoOther) {
+  const auto factory = navigatorControllers();
   for (const auto& name : localPlannerNames()) EXPECT_NE(factory(name, {}), nullptr);
   EXPECT_THROW(factory("nobody", {}), ConfigError);
 }
