@@ -86,15 +86,17 @@ void verify(const PlanningProblem& problem, const BandBenchmark& run, BandResult
   row.least_s = way.least_s;
 }
 
+std::string candidatesHead(const PlanCandidate& first) {
+  std::string line = "n_obs,seed,candidate,chosen,rejected,total,transition_s";
+  for (const auto& [term, cost] : first.costs) line += "," + term;
+  return line + "\n";
+}
+
 /// Each candidate of a cold plan with the cost of each term, and why it was not chosen; a header before the first.
 std::string candidateLines(const PlanningProblem& p, const PlanOutput& out, bool header) {
   std::string lines;
   const auto add = [&lines](double value) { lines += ',' + shortestNumber(value); };
-  if (header && !out.candidates.empty()) {
-    lines = "n_obs,seed,candidate,chosen,rejected,total,transition_s";
-    for (const auto& [term, cost] : out.candidates.front().costs) lines += "," + term;
-    lines += "\n";
-  }
+  if (header && !out.candidates.empty()) lines = candidatesHead(out.candidates.front());
   int n = 0;
   for (const auto& c : out.candidates) {
     lines += std::to_string(p.n_obs) + "," + std::to_string(p.seed) + "," + std::to_string(n++) + ",";

@@ -133,6 +133,18 @@ bool survivesDecoding(const std::string& bytes) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+/// Occupied, unknown, free as grey values, by the thresholds that writeRosMap writes; the top row first.
+GreyImage greyOf(const GridMap& map) {
+  const GridFrame frame = map.frame();
+  GreyImage out{frame.width, frame.height, {}, {}};
+  for (int row = frame.height - 1; row >= 0; --row)
+    for (int column = 0; column < frame.width; ++column) {
+      const float free = map.grid->getCell(column, row);
+      out.grey.push_back(free < 0.35F ? 0 : (free > 0.804F ? 254 : 205));
+    }
+  return out;
+}
+
 GridMap readSimplemap(const std::string& file, double resolution_m) {
   const std::string bytes = unpacked(file);
   registerClasses();
@@ -195,16 +207,9 @@ GridMap readMap(const std::string& file, const MapReadParams& params) {
 void writeRosMap(const GridMap& map, const std::string& yaml_file) {
   if (!yaml_file.ends_with(".yaml")) throw ConfigError(yaml_file + ": the name of a ROS map must end in .yaml");
   const std::filesystem::path image = std::filesystem::path(yaml_file).replace_extension(".pgm");
-  const GridFrame frame = map.frame();
-  GreyImage out{frame.width, frame.height, {}, {}};
-  for (int row = frame.height - 1; row >= 0; --row)
-    for (int column = 0; column < frame.width; ++column) {
-      const float free = map.grid->getCell(column, row);
-      out.grey.push_back(free < 0.35F ? 0 : (free > 0.804F ? 254 : 205));
-    }
-  writePgm(out, image.string());
+  writePgm(greyOf(map), image.string());
   std::ofstream yaml(yaml_file, std::ios::binary);
-  const auto& T = frame.T_map_grid;
+  const auto T = map.frame().T_map_grid;
   yaml << "image: " << image.filename().string() << "\nresolution: " << shortFloat(map.grid->getResolution())
        << "\norigin: [" << shortFloat(static_cast<float>(T.x)) << ", " << shortFloat(static_cast<float>(T.y)) << ", "
        << shortestNumber(T.phi) << "]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\nmode: trinary\n";
