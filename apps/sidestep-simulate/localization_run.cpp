@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/log_writer.h"
+#include "evaluation/metrics/metric_json.h"
 #include "evaluation/metrics/trajectory_error.h"
 #include "figures/trajectory_figure.h"
 #include "simulation/observations.h"
@@ -36,18 +37,14 @@ void note(const SensorStep& step, const mrpt::math::TPose2D& start, Summary& out
 
 std::string metricsText(const Scenario& config, const Summary& summary) {
   const TrajectoryErrors errors = summary.odometry.measure(Alignment::kNone);
+  nlohmann::ordered_json odometry{{"samples", errors.samples}};
+  addMetrics(errorMetrics(), errors, {}, odometry);
   const nlohmann::ordered_json json{{"kind", config.kind},
                                     {"seed", config.seed},
                                     {"duration_s", summary.duration_s},
                                     {"path_m", summary.path_m},
                                     {"observations", summary.written},
-                                    {"odometry",
-                                     {{"samples", errors.samples},
-                                      {"mean_error_m", errors.mean_error_m},
-                                      {"mean_square_error_m2", errors.mean_square_error_m2},
-                                      {"max_error_m", errors.max_error_m},
-                                      {"final_error_m", errors.final_error_m},
-                                      {"heading_mean_error_deg", errors.heading_mean_error_deg}}},
+                                    {"odometry", odometry},
                                     {"partial", interrupted()}};
   return json.dump(2) + "\n";
 }

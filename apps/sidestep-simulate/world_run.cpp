@@ -16,6 +16,8 @@
 #include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/metrics/collision_index.h"
+#include "evaluation/metrics/metric_json.h"
+#include "evaluation/metrics/world_metrics.h"
 #include "figures/timeline_figure.h"
 #include "figures/world_figure.h"
 #include "simulation/world_observations.h"
@@ -25,41 +27,33 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 std::string metricsText(const Scenario& config, const World& world, const WorldRecorder& recorder,
-                        const Json& written) {
+                        const PlanCount& plans, const Json& written) {
   const WorldSummary s = summarize(world);
   Json hits = Json::array();
   for (const Contact& c : world.contacts(world.robotUnderTest()).contacts())
     hits.push_back(
         {{"kind", word(c.kind)}, {"time_s", c.time_s}, {"other", c.other}, {"closing_speed", c.closing_speed}});
-  const Json json{{"kind", config.kind},
-                  {"seed", config.seed},
-                  {"success", s.success},
-                  {"arrived", s.arrived},
-                  {"goals_reached", s.goals_reached},
-                  {"time_s", s.time_s},
-                  {"path_m", s.path_m},
-                  {"average_velocity", s.average_velocity},
-                  {"min_clearance_m", finiteOrNull(s.min_clearance_m)},
-                  {"min_wall_clearance_m", finiteOrNull(s.min_wall_clearance_m)},
-                  {"delta_min", deltaMin(s.min_clearance_m)},
-                  {"collision_index_max", recorder.largestCollisionIndex()},
-                  {"contacts", s.contacts},
-                  {"hits", hits},
-                  {"observations", written},
-                  {"partial", interrupted()}};
+  Json json{{"kind", config.kind}, {"seed", config.seed}};
+  const WorldNumbers numbers{s, recorder.largestCollisionIndex(), recorder.timeAboveThreshold(),
+                             recorder.timeStanding(), plans};
+  addMetrics(worldMetrics(), numbers, {.aliases = true, .undefined_is_null = true}, json);
+  json["contacts"] = s.contacts;
+  json["hits"] = hits;
+  json["observations"] = written;
+  json["partial"] = interrupted();
   return json.dump(2) + "\n";
 }
 
-/// Has the planner of the robot under test say why it does what it does.
-void askForReasons(const WorldScenario& scenario, World& world, PlanExplanation& explanation) {
-  const RobotParams& robot = robotUnderTest(scenario.world);
-  if (!watchRobotUnderTest(world, scenario, true, [&explanation](const PlanInput& in, const PlanOutput& out) {
-        explanation.note(in.time_s, out);
-      }))
-    throw ConfigError("--explain: the planner of the robot under test is " + robot.planner +
+/// Counts the plans of the robot under test; with `explanation` its planner says why it does what it does.
+void watchPlans(const WorldScenario& scenario, World& world, PlanCount& plans, PlanExplanation* explanation) {
+  const bool watched = watchRobotUnderTest(world, scenario, explanation != nullptr,
+                                           [&plans, explanation](const PlanInput& in, const PlanOutput& out) {
+                                             plans.add(out);
+                                             if (explanation != nullptr) explanation->note(in.time_s, out);
+                                           });
+  if (!watched && explanation != nullptr)
+    throw ConfigError("--explain: the planner of the robot under test is " + robotUnderTest(scenario.world).planner +
                       ", which is no local planner");
 }
 
@@ -86,6 +80,14 @@ void drawSnapshotsOf(const SimulateOptions& options, const Scenario& config, con
   drawSnapshots(columns, world.walls().walls(), folder.file("snapshots.png"));
 }
 
+void printResult(const World& world, const std::string& log) {
+  const WorldSummary s = summarize(world);
+  std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", log.c_str(), s.arrived ? "arrived" : "not arrived", s.time_s,
+              s.path_m, world.contacts(world.robotUnderTest()).contacts().size());
+  if (std::isfinite(s.min_clearance_m)) std::printf(", closest %.2f m", s.min_clearance_m);
+  std::printf("\n");
+}
+
 }  // namespace
 
 ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder) {
@@ -93,7 +95,8 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
   World world(config.world.world, static_cast<uint64_t>(config.seed), inputs,
               navigatorControllers(config.world.planners));
   PlanExplanation explanation;
-  if (options.explain) askForReasons(config.world, world, explanation);
+  PlanCount plans;
+  watchPlans(config.world, world, plans, options.explain ? &explanation : nullptr);
   LogWriter log(folder.file("run.rawlog"), commandLine());
   WorldReporter reporter(world);
   WorldRecorder recorder(world);
@@ -115,7 +118,7 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
     });
   }
   log.close();
-  folder.writeText("metrics.json", metricsText(config, world, recorder, written));
+  folder.writeText("metrics.json", metricsText(config, world, recorder, plans, written));
   recorder.figure().title = options.scenario.substr(options.scenario.find_last_of('/') + 1);
   if (options.explain) folder.writeText("explain.csv", explanation.csv());
   if (!options.no_picture) {
@@ -125,12 +128,7 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
   }
   if (options.video) film(recorder.figure(), folder);
   if (!options.snapshots_s.empty() && !interrupted()) drawSnapshotsOf(options, config, inputs, world, folder);
-  const WorldSummary s = summarize(world);
-  std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", folder.file("run.rawlog").c_str(),
-              s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m,
-              world.contacts(world.robotUnderTest()).contacts().size());
-  if (std::isfinite(s.min_clearance_m)) std::printf(", closest %.2f m", s.min_clearance_m);
-  std::printf("\n");
+  printResult(world, folder.file("run.rawlog"));
   return interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 

@@ -47,7 +47,10 @@ class LaserRunner final : public StudyRunner {
     v.overlay("set", algorithms_[index], "what the algorithm changes in each scenario's configuration");
   }
   std::vector<std::string> axes() const override { return {"carried_after_s", "off_m"}; }
-  std::vector<std::string> metrics() const override { return laserMetricNames(); }
+  const std::vector<MetricInfo>& metrics() const override {
+    static const auto infos = infosOf(laserMetrics());
+    return infos;
+  }
 
   void prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
                const std::vector<std::string>& algorithms, bool load_data) override;
@@ -123,7 +126,7 @@ std::vector<LaserSample> LaserRunner::localize(const StudyPlace& place) const {
 }
 
 std::vector<double> LaserRunner::run(const StudyPlace& place) const {
-  return laserMetrics(localize(place), scenarios_[place.scenario].trial.settle_s);
+  return valuesOf(laserMetrics(), measureTrial(localize(place), scenarios_[place.scenario].trial.settle_s));
 }
 
 bool LaserRunner::draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const {

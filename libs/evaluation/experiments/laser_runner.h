@@ -10,7 +10,7 @@ namespace sidestep {
 
 /// Studies of kind `laser`: localizers by laser in a map, on pieces of recorded drives, or of drives made on a map.
 /// Scenarios name log and map, or a map to drive on, and how the localizer is put to the test; algorithms change their
-/// configuration. Metrics are those of laserMetricNames().
+/// configuration. Metrics are those of laserMetrics().
 std::unique_ptr<StudyRunner> makeLaserRunner(const std::string& study_file);
 
 }  // namespace sidestep

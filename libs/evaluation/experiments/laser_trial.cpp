@@ -11,7 +11,6 @@
 
 #include "core/errors.h"
 #include "datasets/log_degrader.h"
-#include "evaluation/metrics/drive_metrics.h"
 
 namespace sidestep {
 namespace {
@@ -20,9 +19,8 @@ using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMostGap_s = 1.5, kFound_m = 1, kElsewhere_m = 3;
+constexpr double kMostGap_s = 1.5, kElsewhere_m = 3;
 constexpr int kMostDraws = 1000;
-constexpr double kGaps = 5;
 
 double distance(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -161,49 +159,6 @@ std::vector<LaserSample> localizeTrial(const LaserTrial& trial, const LocalizeCo
   }
   localizer.finish();
   take();
-  return out;
-}
-
-const std::vector<std::string>& laserMetricNames() {
-  static const std::vector<std::string> names = {
-      "mean_error_m", "rmse_m",        "max_error_m", "heading_mean_error_deg",
-      "mean_nees",    "final_error_m", "found",       "found_after_s",
-      "lost_share",   "lost_told",     "lost_brier",  "lost_gap_1",
-      "lost_gap_2",   "lost_gap_3",    "lost_gap_4",  "lost_gap_5"};
-  return names;
-}
-
-std::vector<double> laserMetrics(const std::vector<LaserSample>& samples, double settle_s) {
-  DriveResult settled;
-  double final_error = kNaN, found_after = kNaN, lost = 0, told = 0, brier = 0, gaps[5] = {};
-  for (const auto& s : samples) {
-    if (s.pair.time_s >= settle_s) settled.pairs.push_back(s.pair);
-    final_error = distance(s.pair.estimate, s.pair.truth);
-    const bool is_lost = final_error > kFound_m;
-    if (is_lost) found_after = kNaN;
-    if (!is_lost && std::isnan(found_after)) found_after = s.pair.time_s;
-    const double p = s.lost_told, off = p - (is_lost ? 1 : 0);
-    lost += is_lost, told += p, brier += off * off;
-    if (p >= 0) gaps[static_cast<size_t>(std::min(p * kGaps, kGaps - 1))] += off;
-  }
-  const double n = static_cast<double>(samples.size());
-  const auto drive = driveMetrics(settled, {}, {}, 0);
-  const auto& names = driveMetricNames();
-  const auto of = [&](const char* name) {
-    return drive[static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
-  };
-  std::vector<double> out = {of("mean_error_m"),
-                             of("rmse_m"),
-                             of("max_error_m"),
-                             of("heading_mean_error_deg"),
-                             of("mean_nees"),
-                             final_error,
-                             final_error < kFound_m ? 1.0 : 0.0,
-                             found_after,
-                             lost / n,
-                             told / n,
-                             brier / n};
-  for (const double gap : gaps) out.push_back(gap / n);
   return out;
 }
 

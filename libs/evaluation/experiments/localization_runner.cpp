@@ -71,7 +71,10 @@ class LocalizationRunner final : public StudyRunner {
     v.overlay("set", algorithms_[index], "what the algorithm changes in each scenario's configuration");
   }
   std::vector<std::string> axes() const override { return {"outage_s"}; }
-  std::vector<std::string> metrics() const override { return driveMetricNames(); }
+  const std::vector<MetricInfo>& metrics() const override {
+    static const auto infos = infosOf(driveMetrics());
+    return infos;
+  }
 
   void prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
                const std::vector<std::string>& algorithms, bool load_data) override;
@@ -218,10 +221,11 @@ std::vector<double> LocalizationRunner::run(const StudyPlace& place) const {
   if (loss.any() && scenarios_[place.scenario].configs[place.algorithm].filter == "odometry") {
     DriveResult reckoned = localize(place, loss);
     layOntoTruthAt(loss.from_s, reckoned);
-    return driveMetrics(reckoned, {}, loss, 0);
+    return valuesOf(driveMetrics(), measureDrive(reckoned, {}, loss, 0));
   }
   const auto twin = loss.any() ? twinOf(place) : std::make_shared<const DriveErrors>();
-  return driveMetrics(localize(place, loss), *twin, loss, scenarios_[place.scenario].interruption.settle_s);
+  const double settle_s = scenarios_[place.scenario].interruption.settle_s;
+  return valuesOf(driveMetrics(), measureDrive(localize(place, loss), *twin, loss, settle_s));
 }
 
 bool LocalizationRunner::draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const {

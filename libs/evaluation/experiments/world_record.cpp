@@ -16,11 +16,6 @@ constexpr double kFigurePeriod_s = 0.1, kStanding = 0.01;
 
 }  // namespace
 
-double deltaMin(double clearance_m) {
-  const double d = std::max(0.0, clearance_m);
-  return std::exp(-d * d / 3);
-}
-
 WorldRecorder::WorldRecorder(const World& world) : world_(world) {
   figure_.period_s = kFigurePeriod_s;
   figure_.goal = {world.underTest().goal.x, world.underTest().goal.y};

@@ -10,10 +10,6 @@
 
 namespace sidestep {
 
-/// delta_min(t) of (4.6): 1 at contact, towards 0 far away.
-/// @param clearance_m  between the rims; overlap counts as contact, infinity gives 0
-double deltaMin(double clearance_m);
-
 /// Notes what a figure or a metric of a run wants to know, step by step.
 class WorldRecorder {
  public:

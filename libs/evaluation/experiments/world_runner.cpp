@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 
 #include "core/data_path.h"
@@ -17,13 +16,12 @@
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/experiments/world_scenario.h"
 #include "evaluation/metrics/collision_index.h"
+#include "evaluation/metrics/world_metrics.h"
 #include "evaluation/study/study.h"
 #include "figures/timeline_figure.h"
 
 namespace sidestep {
 namespace {
-
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 struct ScenarioEntry {
   std::string file, set, goals = "all";
@@ -99,11 +97,9 @@ class WorldRunner final : public StudyRunner {
     for (const Axis& a : kAxes) out.emplace_back(a.name);
     return out;
   }
-  std::vector<std::string> metrics() const override {
-    return {"success",           "arrived",          "goals_reached",      "collision", "robot_into_person",
-            "person_into_robot", "robot_into_robot", "robot_into_wall",    "time",      "path_length",
-            "average_velocity",  "min_clearance",    "min_wall_clearance", "delta_min", "ci_max",
-            "ci_exceeded",       "ci_exceeded_time", "standing_time",      "braked"};
+  const std::vector<MetricInfo>& metrics() const override {
+    static const auto infos = infosOf(worldMetrics());
+    return infos;
   }
   void prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
                const std::vector<std::string>& algorithms, bool load_data) override;
@@ -184,20 +180,16 @@ void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::
 struct WatchedRun {
   WatchedRun(const WorldScenario& scenario, const WorldInputs& inputs, uint64_t seed)
       : world(scenario.world, seed, inputs, navigatorControllers(scenario.planners)), recorder(world) {
-    watchRobotUnderTest(world, scenario, false, [this](const PlanInput&, const PlanOutput& out) { count(out); });
+    watchRobotUnderTest(world, scenario, false, [this](const PlanInput&, const PlanOutput& out) { plans.add(out); });
     world.run([this] {
       recorder.note();
       return true;
     });
   }
-  void count(const PlanOutput& out) {
-    ++plans;
-    if (out.status == PlanOutput::Status::kBraking || out.status == PlanOutput::Status::kNoPlan) ++braked;
-  }
 
   World world;
   WorldRecorder recorder;
-  size_t plans = 0, braked = 0;
+  PlanCount plans;
 };
 
 /// Leaves the robot one of its goals.
@@ -221,32 +213,11 @@ WatchedRun runOf(const ScenarioEntry& s, const std::string& axis, const StudyPla
   return WatchedRun(varied, *s.inputs[place.algorithm], place.world_seed);
 }
 
-double finiteOrUndefined(double value) { return std::isfinite(value) ? value : kUndefined; }
-
 std::vector<double> WorldRunner::run(const StudyPlace& place) const {
   const WatchedRun run = runOf(scenarios_[place.scenario], axes_[place.scenario], place);
-  const WorldSummary s = summarize(run.world);
   const WorldRecorder& r = run.recorder;
-  const auto hits = [&](const char* kind) { return static_cast<double>(s.contacts.at(kind)); };
-  return {s.success ? 1.0 : 0.0,
-          s.arrived ? 1.0 : 0.0,
-          static_cast<double>(s.goals_reached),
-          s.collision ? 1.0 : 0.0,
-          hits("robot_into_person"),
-          hits("person_into_robot"),
-          hits("robot_into_robot"),
-          hits("robot_into_wall"),
-          s.time_s,
-          s.path_m,
-          s.average_velocity,
-          finiteOrUndefined(s.min_clearance_m),
-          finiteOrUndefined(s.min_wall_clearance_m),
-          deltaMin(s.min_clearance_m),
-          r.largestCollisionIndex(),
-          r.largestCollisionIndex() > kCollisionIndexThreshold ? 1.0 : 0.0,
-          r.timeAboveThreshold(),
-          r.timeStanding(),
-          run.plans > 0 ? static_cast<double>(run.braked) / static_cast<double>(run.plans) : kUndefined};
+  return valuesOf(worldMetrics(), {summarize(run.world), r.largestCollisionIndex(), r.timeAboveThreshold(),
+                                   r.timeStanding(), run.plans});
 }
 
 bool WorldRunner::draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const {

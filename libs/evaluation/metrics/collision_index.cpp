@@ -17,4 +17,9 @@ double collisionIndex(const mrpt::math::TPoint2D& robot, std::span<const mrpt::m
   return largest;
 }
 
+double deltaMin(double clearance_m) {
+  const double d = std::max(0.0, clearance_m);
+  return std::exp(-d * d / 3);
+}
+
 }  // namespace sidestep

@@ -21,4 +21,8 @@ constexpr double kCollisionIndexThreshold = 0.54;
 double collisionIndex(const mrpt::math::TPoint2D& robot, std::span<const mrpt::math::TPoint2D> obstacles,
                       double sigma_m = 0.45);
 
+/// delta_min(t) of (4.6): 1 at contact, towards 0 far away.
+/// @param clearance_m  between the rims; overlap counts as contact, infinity gives 0
+double deltaMin(double clearance_m);
+
 }  // namespace sidestep

@@ -29,10 +29,6 @@ struct Mean {
   double value() const { return n > 0 ? sum / static_cast<double>(n) : kNaN; }
 };
 
-struct LossMetrics {
-  double mean = kNaN, at_end = kNaN, added = kNaN, recovery_s = kNaN, recovered = kNaN;
-};
-
 /// The 95 % quantile of the errors from settle_s on.
 double ordinaryError(const DriveErrors& drive, double settle_s) {
   std::vector<double> errors;
@@ -59,10 +55,9 @@ class ErrorAt {
   size_t next_ = 0;
 };
 
-LossMetrics lossMetrics(const std::vector<PosePair>& pairs, const DriveErrors& twin, const SignalLoss& loss,
-                        double settle_s) {
-  LossMetrics m;
-  if (!loss.any() || pairs.empty()) return m;
+void measureLoss(const std::vector<PosePair>& pairs, const DriveErrors& twin, const SignalLoss& loss, double settle_s,
+                 DriveNumbers& out) {
+  if (!loss.any() || pairs.empty()) return;
   const double ordinary = ordinaryError(twin, settle_s);
   ErrorAt twin_error(twin);
   Mean mean;
@@ -72,67 +67,106 @@ LossMetrics lossMetrics(const std::vector<PosePair>& pairs, const DriveErrors& t
     const double error = errorOf(p), without = twin_error(p.time_s);
     if (loss.covers(p.time_s)) {
       mean.add(error);
-      m.at_end = error;
-      m.added = error - without;
+      out.outage_end_error_m = error;
+      out.outage_added_m = error - without;
     }
     if (p.time_s < loss.to_s || recovered || !has_twin) continue;
-    m.recovery_s = p.time_s - loss.to_s;
+    out.recovery_s = p.time_s - loss.to_s;
     recovered = error <= std::max(ordinary, without);
-    if (first && recovered) m.recovery_s = 0;
+    if (first && recovered) out.recovery_s = 0;
     first = false;
   }
-  m.mean = mean.value();
-  if (!first) m.recovered = recovered ? 1 : 0;
-  return m;
+  out.outage_error_m = mean.value();
+  if (!first) out.recovered = recovered ? 1 : 0;
 }
 
-/// nees, nees_in_band.
-void addNees(const DriveResult& result, std::vector<double>& out) {
+void measureNees(const DriveResult& result, DriveNumbers& out) {
   NormalizedErrors errors;
   for (const auto& p : result.pairs)
     errors.add(p.time_s,
                {p.estimate.x - p.truth.x, p.estimate.y - p.truth.y,
                 p.has_heading ? mrpt::math::wrapToPi(p.estimate.phi - p.truth.phi) : 0},
                p.covariance, p.has_heading);
+  out.errors.mean_nees = errors.meanNees();
   const double mean = errors.meanNees().value_or(kNaN);
-  out.insert(out.end(), {mean, mean / errors.dof()});
-  const bool judged = errors.count() > 0 && !result.aligned;
-  out.push_back(judged ? judgeNees(mean, errors.effectiveCount(), errors.dof()).verdict == "consistent" : kNaN);
+  out.nees.mean = mean / errors.dof();
+  if (errors.count() > 0 && !result.aligned)
+    out.nees.in_band = judgeNees(mean, errors.effectiveCount(), errors.dof()).verdict == "consistent";
 }
 
-/// nis_KIND, nis_KIND_in_band.
-void addNis(const DriveResult& result, const std::string& kind, std::vector<double>& out) {
-  const auto it = std::find_if(result.nis.begin(), result.nis.end(), [&](const auto& k) { return k.kind == kind; });
-  if (it == result.nis.end() || !result.gate_probability) return out.resize(out.size() + 2, kNaN);
-  const double mean = it->sum / it->count;
-  const Consistency c = judgeSensor(mean, it->count, it->independent, it->dof, *result.gate_probability);
-  out.insert(out.end(), {mean / c.band.expected, c.verdict == "consistent" ? 1.0 : 0.0});
+void measureNis(const DriveResult& result, DriveNumbers& out) {
+  if (!result.gate_probability) return;
+  for (const auto& k : result.nis) {
+    const double mean = k.sum / k.count;
+    const Consistency c = judgeSensor(mean, k.count, k.independent, k.dof, *result.gate_probability);
+    out.nis.insert({k.kind, {mean / c.band.expected, c.verdict == "consistent" ? 1.0 : 0.0}});
+  }
+}
+
+void measureErrors(const std::vector<PosePair>& pairs, TrajectoryErrors& out) {
+  Mean error, square, heading;
+  out.max_error_m = kNaN;
+  for (const auto& p : pairs) {
+    const double e = errorOf(p);
+    error.add(e);
+    square.add(e * e);
+    if (!(out.max_error_m >= e)) out.max_error_m = e;
+    if (p.has_heading) heading.add(std::abs(mrpt::math::wrapToPi(p.estimate.phi - p.truth.phi)) * 180 / M_PI);
+  }
+  double spread = 0;  // of the error about its mean
+  for (const auto& p : pairs) spread += std::pow(errorOf(p) - error.value(), 2);
+  out.samples = pairs.size();
+  out.mean_error_m = error.value();
+  out.mean_square_error_m2 = pairs.empty() ? kNaN : spread / static_cast<double>(pairs.size());
+  out.rmse_m = std::sqrt(square.value());
+  out.final_error_m = pairs.empty() ? kNaN : errorOf(pairs.back());
+  out.heading_mean_error_deg = heading.value();
+  out.heading_samples = heading.n;
+}
+
+/// NAME and NAME_in_band, for the verdict over all runs (study_consistency.h).
+void addRatio(const std::string& name, const std::string& meaning,
+              const std::function<DriveNumbers::Ratio(const DriveNumbers&)>& of, Metrics<DriveNumbers>& rows) {
+  rows.push_back({{name, "1", meaning + ", by what a consistent filter has: 1", Better::kTarget, ""},
+                  [of](const DriveNumbers& d) { return of(d).mean; }});
+  rows.push_back({{name + "_in_band", "yes/no", "whether the run's own 95 % interval holds that", Better::kHigher, ""},
+                  [of](const DriveNumbers& d) { return of(d).in_band; }});
 }
 
 }  // namespace
 
-const std::vector<std::string>& driveMetricNames() {
-  static const std::vector<std::string> names = {"mean_error_m",
-                                                 "mean_square_error_m2",
-                                                 "rmse_m",
-                                                 "max_error_m",
-                                                 "final_error_m",
-                                                 "heading_mean_error_deg",
-                                                 "mean_nees",
-                                                 "nees",
-                                                 "nees_in_band",
-                                                 "nis_gps",
-                                                 "nis_gps_in_band",
-                                                 "nis_imu",
-                                                 "nis_imu_in_band",
-                                                 "nis_beacons",
-                                                 "nis_beacons_in_band",
-                                                 "outage_error_m",
-                                                 "outage_end_error_m",
-                                                 "outage_added_m",
-                                                 "recovery_s",
-                                                 "recovered"};
-  return names;
+const Metrics<DriveNumbers>& driveMetrics() {
+  using D = DriveNumbers;
+  static const Metrics<D> rows = [] {
+    Metrics<D> out = ofPart(errorMetrics(), &D::errors);
+    for (const auto& row : ofPart(neesMetrics(), &D::errors)) out.push_back(row);
+    addRatio(
+        "nees", "mean NEES", [](const D& d) { return d.nees; }, out);
+    for (const std::string kind : {"gps", "imu", "beacons"})
+      addRatio(
+          "nis_" + kind, "mean NIS of " + kind,
+          [kind](const D& d) {
+            const auto it = d.nis.find(kind);
+            return it == d.nis.end() ? D::Ratio{} : it->second;
+          },
+          out);
+    const Metrics<D> outage = {
+        {{"outage_error_m", "m", "mean error while signals are lost", Better::kLower, ""},
+         [](const D& d) { return d.outage_error_m; }},
+        {{"outage_end_error_m", "m", "error when signals come back", Better::kLower, ""},
+         [](const D& d) { return d.outage_end_error_m; }},
+        {{"outage_added_m", "m", "by how much that is more than in the same run without the loss", Better::kLower, ""},
+         [](const D& d) { return d.outage_added_m; }},
+        {{"recovery_s", "s",
+          "from then until the error is at most the 95 % quantile of the run without the loss, or its error at that "
+          "time; until the end if it never is",
+          Better::kLower, ""},
+         [](const D& d) { return d.recovery_s; }},
+        {{"recovered", "yes/no", "whether it ever is", Better::kHigher, ""}, [](const D& d) { return d.recovered; }}};
+    out.insert(out.end(), outage.begin(), outage.end());
+    return out;
+  }();
+  return rows;
 }
 
 DriveErrors errorsOf(const DriveResult& result) {
@@ -144,30 +178,12 @@ DriveErrors errorsOf(const DriveResult& result) {
   return out;
 }
 
-std::vector<double> driveMetrics(const DriveResult& result, const DriveErrors& twin, const SignalLoss& loss,
-                                 double settle_s) {
-  Mean error, square, heading;
-  double largest = kNaN;
-  for (const auto& p : result.pairs) {
-    const double e = errorOf(p);
-    error.add(e);
-    square.add(e * e);
-    if (!(largest >= e)) largest = e;
-    if (p.has_heading) heading.add(std::abs(mrpt::math::wrapToPi(p.estimate.phi - p.truth.phi)) * 180 / M_PI);
-  }
-  double spread = 0;  // of the error about its mean
-  for (const auto& p : result.pairs) spread += std::pow(errorOf(p) - error.value(), 2);
-  const double n = static_cast<double>(result.pairs.size());
-  std::vector<double> out = {error.value(),
-                             n > 0 ? spread / n : kNaN,
-                             std::sqrt(square.value()),
-                             largest,
-                             n > 0 ? errorOf(result.pairs.back()) : kNaN,
-                             heading.value()};
-  addNees(result, out);
-  for (const char* kind : {"gps", "imu", "beacons"}) addNis(result, kind, out);
-  const LossMetrics lost = lossMetrics(result.pairs, twin, loss, settle_s);
-  out.insert(out.end(), {lost.mean, lost.at_end, lost.added, lost.recovery_s, lost.recovered});
+DriveNumbers measureDrive(const DriveResult& result, const DriveErrors& twin, const SignalLoss& loss, double settle_s) {
+  DriveNumbers out;
+  measureErrors(result.pairs, out.errors);
+  measureNees(result, out);
+  measureNis(result, out);
+  measureLoss(result.pairs, twin, loss, settle_s, out);
   return out;
 }
 

@@ -14,6 +14,7 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "evaluation/metrics/metric_json.h"
 
 namespace sidestep {
 namespace {
@@ -43,12 +44,7 @@ Json toJson(const mrpt::math::TPose2D& pose) {
 Json toJson(const std::optional<TrajectoryErrors>& errors) {
   Json json = Json::object();
   if (!errors) return json;
-  json["mean_error_m"] = orNull(errors->mean_error_m);
-  json["mean_square_error_m2"] = orNull(errors->mean_square_error_m2);
-  json["rmse_m"] = orNull(errors->rmse_m);
-  json["max_error_m"] = orNull(errors->max_error_m);
-  json["final_error_m"] = orNull(errors->final_error_m);
-  if (errors->heading_samples > 0) json["heading_mean_error_deg"] = orNull(errors->heading_mean_error_deg);
+  addMetrics(errorMetrics(), *errors, {}, json);
   json["samples"] = errors->samples;
   json["alignment"] = name(errors->alignment);
   json["T_truth_estimate"] = toJson(errors->T_truth_estimate);
@@ -98,12 +94,21 @@ std::string cell(const std::optional<double>& value, int decimals) {
   return text.data();
 }
 
+/// The metrics that have a column in the table.
+const Metrics<TrajectoryErrors>& columns() {
+  static const Metrics<TrajectoryErrors> rows = [] {
+    Metrics<TrajectoryErrors> out = errorMetrics();
+    out.insert(out.end(), neesMetrics().begin(), neesMetrics().end());
+    std::erase_if(out, [](const auto& row) { return row.info.alias.empty(); });
+    return out;
+  }();
+  return rows;
+}
+
 std::string tableRow(const std::string& title, const TrajectoryErrors& errors) {
   std::string row = title;
-  for (const double value : {errors.mean_error_m, errors.rmse_m, errors.max_error_m, errors.final_error_m})
-    row += cell(value, 3);
-  return row + (errors.heading_samples > 0 ? cell(errors.heading_mean_error_deg, 2) : cell(std::nullopt, 2)) +
-         cell(errors.mean_nees, 2) + "\n";
+  for (const auto& c : columns()) row += cell(c.value(errors), c.info.unit == "m" ? 3 : 2);
+  return row + "\n";
 }
 
 }  // namespace
@@ -138,8 +143,7 @@ void writeMetrics(const LocalizationMetrics& metrics, const std::string& file) {
 
 std::string errorTable(const LocalizationMetrics& metrics) {
   std::string table = "          ";
-  for (const char* title : {"mean error [m]", "rmse [m]", "max [m]", "final [m]", "heading [deg]", "NEES"})
-    table += std::string(16 - std::strlen(title), ' ') + title;
+  for (const auto& c : columns()) table += std::string(16 - c.info.alias.size(), ' ') + c.info.alias;
   table += "\n";
   if (metrics.odometry) table += tableRow("odometry  ", *metrics.odometry);
   if (metrics.estimate) table += tableRow("estimate  ", *metrics.estimate);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <numbers>
 #include <type_traits>
 
@@ -20,6 +21,8 @@ namespace sidestep {
 namespace {
 
 using mrpt::math::TPose2D;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A pair as it lies in the temporary file.
 struct Record {
@@ -159,6 +162,31 @@ TPose2D firstPoseTransform(const PosePair& first) {
 }
 
 }  // namespace
+
+const Metrics<TrajectoryErrors>& errorMetrics() {
+  using E = TrajectoryErrors;
+  static const Metrics<E> rows = {
+      {{"mean_error_m", "m", "mean distance from the truth, ME of (3.18)", Better::kLower, "mean error [m]"},
+       [](const E& e) { return e.mean_error_m; }},
+      {{"mean_square_error_m2", "m2", "variance of that distance about its mean, MSE of (3.18)", Better::kLower, ""},
+       [](const E& e) { return e.mean_square_error_m2; }},
+      {{"rmse_m", "m", "root of the mean square distance", Better::kLower, "rmse [m]"},
+       [](const E& e) { return e.rmse_m; }},
+      {{"max_error_m", "m", "largest distance", Better::kLower, "max [m]"}, [](const E& e) { return e.max_error_m; }},
+      {{"final_error_m", "m", "distance at the end", Better::kLower, "final [m]"},
+       [](const E& e) { return e.final_error_m; }},
+      {{"heading_mean_error_deg", "deg", "mean size of the heading's error", Better::kLower, "heading [deg]"},
+       [](const E& e) { return e.heading_samples > 0 ? e.heading_mean_error_deg : kNaN; }}};
+  return rows;
+}
+
+const Metrics<TrajectoryErrors>& neesMetrics() {
+  static const Metrics<TrajectoryErrors> rows = {
+      {{"mean_nees", "1", "mean squared error by the covariance; 3 if consistent, 2 without a true heading",
+        Better::kTarget, "NEES"},
+       [](const TrajectoryErrors& e) { return e.mean_nees.value_or(kNaN); }}};
+  return rows;
+}
 
 struct TrajectoryErrorMeter::Impl {
   std::FILE* file = nullptr;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "evaluation/metrics/consistency.h"
+#include "evaluation/metrics/metric.h"
 #include "evaluation/metrics/normalized_errors.h"
 
 namespace sidestep {
@@ -29,7 +30,7 @@ struct PosePair {
 /// heading (else least squares); TrajectoryErrors::alignment says which one was applied.
 enum class Alignment { kNone, kFirstPose, kLeastSquares };
 
-/// Errors of a trajectory against truth, the keys of metrics.json.
+/// Errors of a trajectory against truth.
 struct TrajectoryErrors {
   uint64_t samples = 0;
   double mean_error_m = 0;  ///< ME of (3.18)
@@ -46,6 +47,10 @@ struct TrajectoryErrors {
   Alignment alignment = Alignment::kNone;
   mrpt::math::TPose2D T_truth_estimate;  ///< the alignment that was applied
 };
+
+/// Errors in metres and degrees, and the mean NEES. What is not known is NaN.
+const Metrics<TrajectoryErrors>& errorMetrics();
+const Metrics<TrajectoryErrors>& neesMetrics();
 
 /// Collects pairs and measures them; pairs are kept in an unlinked temporary file, so memory does not grow with them.
 class TrajectoryErrorMeter {

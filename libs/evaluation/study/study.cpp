@@ -120,7 +120,7 @@ void Study::check() const {
   for (const auto& row : rows_)
     if (std::count_if(rows_.begin(), rows_.end(), [&](const auto& r) { return r.name == row.name; }) > 1)
       throw ConfigError(file_ + ": scenarios: '" + row.name + "' is there twice");
-  const auto known = runner_->metrics();
+  const auto known = namesOf(runner_->metrics());
   for (const auto& m : metrics)
     if (!contains(known, m)) unknown(file_ + ": metrics", "metric of kind " + kind, m, known);
   for (const auto& m : figures)
@@ -173,7 +173,7 @@ void Study::prepare(bool load_data) {
   runner_->prepare(names, axes, algorithms_, load_data);
 }
 
-std::vector<std::string> Study::reportedMetrics() const { return metrics.empty() ? runner_->metrics() : metrics; }
+std::vector<std::string> Study::reportedMetrics() const { return metrics.empty() ? namesOf(runner_->metrics()) : metrics; }
 
 StudyPlace Study::place(size_t row, size_t algorithm, size_t run) const {
   const StudyRow& r = rows_[row];

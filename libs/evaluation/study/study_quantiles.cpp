@@ -33,7 +33,7 @@ QuantileLine lineOf(const Study& study, size_t row, size_t algorithm, size_t met
   line.algorithm = algorithm;
   line.scenario = study.rows()[row].name;
   line.algorithm_name = study.algorithms()[algorithm];
-  line.metric = study.runner().metrics()[metric];
+  line.metric = study.runner().metrics()[metric].name;
   line.n = values.size();
   line.at.fill(NAN);
   line.median_low = line.median_high = NAN;

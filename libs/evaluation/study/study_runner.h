@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/params.h"
+#include "evaluation/metrics/metric.h"
 
 namespace sidestep {
 
@@ -36,8 +37,8 @@ class StudyRunner {
   /// @param load_data  false: check the parameters only, recorded data need not be there
   virtual void prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
                        const std::vector<std::string>& algorithms, bool load_data) = 0;
-  virtual std::vector<std::string> metrics() const = 0;
-  /// The values of `metrics()`, NaN where one is not defined. Throws if the run came to nothing.
+  virtual const std::vector<MetricInfo>& metrics() const = 0;
+  /// The values of `metrics()`, not finite where one is not defined. Throws if the run came to nothing.
   virtual std::vector<double> run(const StudyPlace& place) const = 0;
   /// Draws the run into `png_file`; false if this kind has no picture of it.
   virtual bool draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const = 0;

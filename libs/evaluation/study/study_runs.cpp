@@ -67,7 +67,7 @@ size_t position(const Names& names, const std::string& name) {
 }  // namespace
 
 RunsFile::RunsFile(const Study& study, const std::string& file, bool resume)
-    : study_(study), name_(file), metrics_(study.runner().metrics()), there_(study.size(), false) {
+    : study_(study), name_(file), metrics_(namesOf(study.runner().metrics())), there_(study.size(), false) {
   std::string kept;
   if (resume && std::filesystem::exists(file)) {
     std::ifstream in(file, std::ios::binary);

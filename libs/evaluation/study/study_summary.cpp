@@ -72,7 +72,7 @@ SummaryLine summaryOf(const Study& study, const Values& values, size_t row, size
   line.algorithm = algorithm;
   line.scenario = study.rows()[row].name;
   line.algorithm_name = study.algorithms()[algorithm];
-  line.metric = study.runner().metrics()[metric];
+  line.metric = study.runner().metrics()[metric].name;
   Random random(static_cast<uint64_t>(study.seed),
                 textHash(line.scenario + "," + line.algorithm_name + "," + line.metric));
   line.summary = summarize(finiteValues(study, values, row, algorithm, metric), random);

@@ -51,14 +51,14 @@ LocalizeConfig matched(const LocalizationScenario& drive, const std::string& fil
   return c;
 }
 
-using Metrics = std::map<std::string, double>;
+using MeanMetrics = std::map<std::string, double>;
 
-Metrics meanOverRuns(const LocalizationScenario& drive, const LocalizeConfig& config, int runs) {
-  Metrics out;
+MeanMetrics meanOverRuns(const LocalizationScenario& drive, const LocalizeConfig& config, int runs) {
+  MeanMetrics out;
   for (int run = 0; run < runs; ++run) {
     const auto seed = static_cast<uint64_t>(run);
-    const auto values = driveMetrics(localizeSimulated(drive, config, {}, seed, seed + 1000), {}, {}, 0);
-    for (size_t i = 0; i < values.size(); ++i) out[driveMetricNames()[i]] += values[i] / runs;
+    const auto numbers = measureDrive(localizeSimulated(drive, config, {}, seed, seed + 1000), {}, {}, 0);
+    for (const auto& row : driveMetrics()) out[row.info.name] += row.value(numbers) / runs;
   }
   return out;
 }

@@ -138,10 +138,11 @@ TEST(LaserMetrics, OfAHandfulOfSamples) {
   add(1, 0.5, 0.5);  // not lost: +0.5 in the third
   add(2, 2, 0.1);    // lost: -0.9 in the first
   add(3, 0.2, 0.1);  // +0.1 in the first
-  const auto values = laserMetrics(samples, 1.5);
+  const LaserNumbers numbers = measureTrial(samples, 1.5);
   const auto of = [&](const std::string& name) {
-    const auto& names = laserMetricNames();
-    return values[static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+    for (const auto& row : laserMetrics())
+      if (row.info.name == name) return row.value(numbers);
+    throw std::out_of_range(name);
   };
   EXPECT_DOUBLE_EQ(of("mean_error_m"), 1.1);  // of the last two
   EXPECT_DOUBLE_EQ(of("max_error_m"), 2);

@@ -34,7 +34,7 @@ size_t position(const std::vector<std::string>& words, const std::string& word) 
 /// One metric of the first runs of scenario `row`.
 std::vector<double> firstRuns(size_t row, const std::string& algorithm, const std::string& metric) {
   const Study& s = table42();
-  const size_t a = position(s.algorithms(), algorithm), m = position(s.runner().metrics(), metric);
+  const size_t a = position(s.algorithms(), algorithm), m = position(namesOf(s.runner().metrics()), metric);
   std::vector<double> out;
   for (size_t run = 0; run < kRuns; ++run) out.push_back(s.runner().run(s.place(row, a, run)).at(m));
   return out;

@@ -47,7 +47,7 @@ struct StudyFile {
 };
 
 double valueOf(const Study& study, const std::vector<double>& values, const std::string& metric) {
-  const auto names = study.runner().metrics();
+  const auto names = namesOf(study.runner().metrics());
   EXPECT_EQ(names.size(), values.size());
   return values.at(static_cast<size_t>(std::find(names.begin(), names.end(), metric) - names.begin()));
 }
