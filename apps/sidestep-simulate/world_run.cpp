@@ -80,14 +80,6 @@ void drawSnapshotsOf(const SimulateOptions& options, const Scenario& config, con
   drawSnapshots(columns, world.walls().walls(), folder.file("snapshots.png"));
 }
 
-void printResult(const World& world, const std::string& log) {
-  const WorldSummary s = summarize(world);
-  std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", log.c_str(), s.arrived ? "arrived" : "not arrived", s.time_s,
-              s.path_m, world.contacts(world.robotUnderTest()).contacts().size());
-  if (std::isfinite(s.min_clearance_m)) std::printf(", closest %.2f m", s.min_clearance_m);
-  std::printf("\n");
-}
-
 }  // namespace
 
 ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder) {
@@ -101,12 +93,7 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
   WorldReporter reporter(world);
   WorldRecorder recorder(world);
   std::map<std::string, uint64_t> written;
-  const auto report = [&] {
-    reporter.tell([&](const mrpt::obs::CObservation& o) {
-      log.write(o);
-      ++written[o.sensorLabel];
-    });
-  };
+  const auto report = [&] { reporter.tell([&](const auto& o) { log.write(o), ++written[o.sensorLabel]; }); };
   {
     ProgressBar bar("simulating", options.quiet);
     report();
@@ -128,7 +115,12 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
   }
   if (options.video) film(recorder.figure(), folder);
   if (!options.snapshots_s.empty() && !interrupted()) drawSnapshotsOf(options, config, inputs, world, folder);
-  printResult(world, folder.file("run.rawlog"));
+  const WorldSummary s = summarize(world);
+  std::printf("%s: %s after %.2f s, %.2f m, %zu contacts", folder.file("run.rawlog").c_str(),
+              s.arrived ? "arrived" : "not arrived", s.time_s, s.path_m,
+              world.contacts(world.robotUnderTest()).contacts().size());
+  if (std::isfinite(s.min_clearance_m)) std::printf(", closest %.2f m", s.min_clearance_m);
+  std::printf("\n");
   return interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 
