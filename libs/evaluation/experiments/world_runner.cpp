@@ -164,6 +164,15 @@ void WorldRunner::checkRunnable(const WorldParams& world, const WorldInputs& inp
   throw ConfigError(text + "\n(unchecked: true in the scenario's entry runs it anyway)");
 }
 
+/// @param where  for the message
+void check(const WorldScenario& world, const std::string& where) {
+  try {
+    world.check();
+  } catch (const ConfigError& e) {
+    throw ConfigError(where + ": " + e.what());
+  }
+}
+
 void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
                           const std::vector<std::string>& algorithms, bool load_data) {
   axes_ = axes;
@@ -174,11 +183,7 @@ void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::
     for (size_t a = 0; a < algorithms_.size(); ++a) {
       WorldScenario world = base;
       algorithms_[a].apply(world, file_);
-      try {
-        world.check();
-      } catch (const ConfigError& e) {
-        throw ConfigError(file_ + ": algorithms." + algorithms[a] + ": " + e.what());
-      }
+      check(world, file_ + ": algorithms." + algorithms[a]);
       s.inputs.push_back(inputsOf(world.world, load_data));
       if (load_data && !s.unchecked && (a == 0 || !isBlank(algorithms_[a].set)))
         checkRunnable(world.world, *s.inputs.back(), scenarios[i], algorithms[a]);
