@@ -3,6 +3,7 @@
 // A name of code in backticks in doc/ exists: words with an underscore or a capital inside, and files.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "evaluation/study/study_runner.h"
@@ -32,6 +33,11 @@ std::vector<std::string> pieces(const std::string& text, Belongs belongs) {
 struct Names {
   std::set<std::string> words, files;
 
+  /// @param in_part  a part of a word is enough, as in a filter of tests: `*MapsOf*`, `MapsOf...`
+  bool hasWord(const std::string& word, bool in_part) const {
+    if (words.count(word) > 0) return true;
+    return in_part && std::any_of(words.begin(), words.end(), [&](const auto& w) { return w.find(word) != w.npos; });
+  }
   void addText(const std::string& text) {
     for (auto& word : pieces(text, isWordCharacter)) words.insert(std::move(word));
     for (auto& name : pieces(text, [](char c) { return isWordCharacter(c) || c == '.' || c == '-'; }))
@@ -88,6 +94,7 @@ std::string unknownNames(const std::string& markdown, const Names& names) {
   std::string out;
   for (const auto& span : spansOf(markdown)) {
     const bool command = span.starts_with("sidestep-");  // its files are the user's
+    const bool in_part = span.find('*') != span.npos || span.find("...") != span.npos;
     for (const auto& piece : pieces(span, [](char c) { return isWordCharacter(c) || c == '.' || c == '-'; })) {
       const std::string stem = piece.substr(0, piece.find('.'));
       if (std::regex_match(piece, file)) {
@@ -95,7 +102,7 @@ std::string unknownNames(const std::string& markdown, const Names& names) {
         continue;
       }
       for (const auto& word : pieces(piece, isWordCharacter))
-        if (looksLikeCode(word) && !isPlaceholder(word) && names.words.count(word) == 0) out += word + "\n";
+        if (looksLikeCode(word) && !isPlaceholder(word) && !names.hasWord(word, in_part)) out += word + "\n";
     }
   }
   return out;
