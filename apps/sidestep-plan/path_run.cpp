@@ -24,24 +24,11 @@ double cpuMilliseconds() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
+/// In the order of GlobalPath::Status.
 const char* word(GlobalPath::Status status) {
-  switch (status) {
-    case GlobalPath::Status::kFound:
-      return "found";
-    case GlobalPath::Status::kStartOutside:
-      return "start_outside";
-    case GlobalPath::Status::kGoalOutside:
-      return "goal_outside";
-    case GlobalPath::Status::kStartBlocked:
-      return "start_blocked";
-    case GlobalPath::Status::kGoalBlocked:
-      return "goal_blocked";
-    case GlobalPath::Status::kUnreachable:
-      return "unreachable";
-    case GlobalPath::Status::kTimeOver:
-      return "time_over";
-  }
-  return "";
+  static constexpr const char* kWords[] = {"found",        "start_outside", "goal_outside", "start_blocked",
+                                           "goal_blocked", "unreachable",   "time_over"};
+  return kWords[static_cast<size_t>(status)];
 }
 
 std::string fixed(double value, int decimals) {

@@ -93,12 +93,7 @@ ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const 
   WorldReporter reporter(world);
   WorldRecorder recorder(world);
   std::map<std::string, uint64_t> written;
-  const auto report = [&] {
-    reporter.tell([&](const mrpt::obs::CObservation& o) {
-      log.write(o);
-      ++written[o.sensorLabel];
-    });
-  };
+  const auto report = [&] { reporter.tell([&](const auto& o) { log.write(o), ++written[o.sensorLabel]; }); };
   {
     ProgressBar bar("simulating", options.quiet);
     report();

@@ -150,6 +150,15 @@ std::shared_ptr<const WorldInputs> WorldRunner::inputsOf(const WorldParams& p, b
   return known;
 }
 
+/// @param where  for the message
+void check(const WorldScenario& world, const std::string& where) {
+  try {
+    world.check();
+  } catch (const ConfigError& e) {
+    throw ConfigError(where + ": " + e.what());
+  }
+}
+
 void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::vector<std::string>& axes,
                           const std::vector<std::string>& algorithms, bool load_data) {
   axes_ = axes;
@@ -160,11 +169,7 @@ void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::
     for (size_t a = 0; a < algorithms_.size(); ++a) {
       WorldScenario world = base;
       algorithms_[a].apply(world, file_);
-      try {
-        world.check();
-      } catch (const ConfigError& e) {
-        throw ConfigError(file_ + ": algorithms." + algorithms[a] + ": " + e.what());
-      }
+      check(world, file_ + ": algorithms." + algorithms[a]);
       s.inputs.push_back(inputsOf(world.world, load_data));
       s.worlds.push_back(std::move(world));
     }

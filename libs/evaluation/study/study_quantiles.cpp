@@ -28,11 +28,9 @@ QuantileLine lineOf(const Study& study, size_t row, size_t algorithm, size_t met
   line.algorithm_name = study.algorithms()[algorithm];
   line.metric = study.runner().metrics()[metric].name;
   line.n = values.size();
-  if (values.empty()) {
-    line.at.fill(NAN);
-    line.median_low = line.median_high = NAN;
-    return line;
-  }
+  line.at.fill(NAN);
+  line.median_low = line.median_high = NAN;
+  if (values.empty()) return line;
   std::sort(values.begin(), values.end());
   for (size_t i = 0; i < kQuantiles.size(); ++i) line.at[i] = quantile(values, kQuantiles[i]);
   const size_t k = medianRank(values.size());
