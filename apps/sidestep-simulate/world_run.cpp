@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/log_writer.h"
-#include "evaluation/experiments/plan_explanation.h"
 #include "evaluation/experiments/plan_snapshots.h"
 #include "evaluation/experiments/standing_reasons.h"
 #include "evaluation/experiments/world_controllers.h"
@@ -21,6 +20,7 @@
 #include "evaluation/metrics/world_metrics.h"
 #include "figures/timeline_figure.h"
 #include "figures/world_figure.h"
+#include "planning/plan_explanation.h"
 #include "simulation/world_observations.h"
 
 namespace sidestep {
