@@ -4,7 +4,11 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/sidestep)
 
 install(TARGETS sidestep EXPORT sidestepTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY libs/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sidestep FILES_MATCHING PATTERN "*.h")
+include(SidestepPublicHeaders)
+foreach(header ${public_headers})
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES libs/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sidestep/${folder})
+endforeach()
 install(DIRECTORY share/ DESTINATION ${CMAKE_INSTALL_DATADIR}/sidestep)
 install(EXPORT sidestepTargets NAMESPACE sidestep:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/sidestepConfig.cmake.in ${PROJECT_BINARY_DIR}/sidestepConfig.cmake

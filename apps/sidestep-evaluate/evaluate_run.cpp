@@ -131,6 +131,13 @@ std::string Evaluation::metricsText(const std::vector<ExpectationResult>& expect
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+void tellFailures(const std::vector<StudyFigure>& figures) {
+  for (const auto& figure : figures)
+    if (!figure.failure.empty())
+      std::fprintf(stderr, "sidestep-evaluate: %s: could not be drawn: %s\n", figure.file.c_str(),
+                   figure.failure.c_str());
+}
+
 void Evaluation::save() {
   runs_->finish();
   lines_ = summarizeRuns(study_, runs_->runs());
@@ -142,10 +149,7 @@ void Evaluation::save() {
   const auto consistency = consistencyOf(lines_);
   if (!consistency.empty()) folder_.writeText("consistency.csv", consistencyCsv(consistency));
   const auto figures = drawStudy(study_, lines_, medianLines(study_, quantiles), folder_.file(""));
-  for (const auto& figure : figures)
-    if (!figure.failure.empty())
-      std::fprintf(stderr, "sidestep-evaluate: %s: could not be drawn: %s\n", figure.file.c_str(),
-                   figure.failure.c_str());
+  tellFailures(figures);
   ReportFacts f = facts();
   f.more_tables = quantilesHtml(study_, quantiles) + consistencyHtml(consistency);
   folder_.writeText("report.html", reportHtml(study_, lines_, expectations_, figures, folder_.file(""), f));

@@ -86,15 +86,17 @@ void verify(const PlanningProblem& problem, const BandBenchmark& run, BandResult
   row.least_s = way.least_s;
 }
 
+std::string candidatesHead(const PlanCandidate& first) {
+  std::string line = "n_obs,seed,candidate,chosen,rejected,total,transition_s";
+  for (const auto& [term, cost] : first.costs) line += "," + term;
+  return line + "\n";
+}
+
 /// Each candidate of a cold plan with the cost of each term, and why it was not chosen; a header before the first.
 std::string candidateLines(const PlanningProblem& p, const PlanOutput& out, bool header) {
   std::string lines;
   const auto add = [&lines](double value) { lines += ',' + shortestNumber(value); };
-  if (header && !out.candidates.empty()) {
-    lines = "n_obs,seed,candidate,chosen,rejected,total,transition_s";
-    for (const auto& [term, cost] : out.candidates.front().costs) lines += "," + term;
-    lines += "\n";
-  }
+  if (header && !out.candidates.empty()) lines = candidatesHead(out.candidates.front());
   int n = 0;
   for (const auto& c : out.candidates) {
     lines += std::to_string(p.n_obs) + "," + std::to_string(p.seed) + "," + std::to_string(n++) + ",";
@@ -119,6 +121,25 @@ BandFigure::Panel panelOf(const PlanningProblem& problem, const BandPlanner& pla
   return panel;
 }
 
+/// Appends the lines of each plan's candidates to a text, which must outlive what is returned.
+auto appendTo(std::string& lines) {
+  return [&](const PlanningProblem& p, const PlanOutput& out) { lines += candidateLines(p, out, lines.empty()); };
+}
+
+std::string csvHead(bool verify) {
+  return std::string("n_obs,seed,planner,status,time_ms,warm_ms,poses,transition_s,min_dist_m,max_v,max_w,max_a,") +
+         "max_alpha,cost" + (verify ? ",way_exists,least_s\n" : "\n");
+}
+
+/// Adds nine problems, evenly chosen, to the picture. Both arguments must outlive what is returned.
+auto drawNineOf(const std::vector<PlanningProblem>& problems, BandFigure& picture) {
+  return [&](const PlanningProblem& p, const BandPlanner& bands) {
+    const size_t apart = std::max<size_t>(problems.size() / 9, 1);
+    if (static_cast<size_t>(&p - problems.data()) % apart == 0 && picture.panels.size() < 9)
+      picture.panels.push_back(panelOf(p, bands));
+  };
+}
+
 ExitCode runBand(const Options& o) {
   BandPlannerParams params = bandPlannerParams(o.planner);
   RobotLimits robot;
@@ -139,26 +160,15 @@ ExitCode runBand(const Options& o) {
   ThreadPool pool(o.threads);
   BandPlanner planner(params);
   if (o.threads > 1) planner.useThreads([&](int n, const auto& f) { pool.run(n, f); });
-  const bool one = o.threads == 1;
+  BandBenchmark run{robot, o.moving, o.repeats, 50, [one = o.threads == 1] { return nowMs(one); }, {}, {}};
   BandFigure picture;
   picture.radius_m = robot.radius_m;
+  if (o.picture) run.planned_cold = drawNineOf(problems, picture);
   std::string explained;
-  const size_t apart = std::max<size_t>(problems.size() / 9, 1);  // nine of them, evenly chosen
-  BandBenchmark run{robot, o.moving, o.repeats, 50, [one] { return nowMs(one); }, {}, {}};
-  if (o.picture)
-    run.planned_cold = [&](const PlanningProblem& p, const BandPlanner& bands) {
-      if (static_cast<size_t>(&p - problems.data()) % apart == 0 && picture.panels.size() < 9)
-        picture.panels.push_back(panelOf(p, bands));
-    };
   planner.explain(o.explain);
-  if (o.explain)
-    run.explained = [&](const PlanningProblem& p, const PlanOutput& out) {
-      explained += candidateLines(p, out, explained.empty());
-    };
+  if (o.explain) run.explained = appendTo(explained);
   ProgressBar bar("band", o.quiet);
-  std::string csv =
-      "n_obs,seed,planner,status,time_ms,warm_ms,poses,transition_s,min_dist_m,max_v,max_w,max_a,max_alpha,cost";
-  csv += o.verify ? ",way_exists,least_s\n" : "\n";
+  std::string csv = csvHead(o.verify);
   std::vector<BandResult> rows;
   for (const auto& problem : problems) {
     if (interrupted()) break;

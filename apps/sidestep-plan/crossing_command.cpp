@@ -75,6 +75,22 @@ std::string summary(const std::vector<CrossingRow>& rows, const std::string& pla
   return text;
 }
 
+/// @throws Error for a command beyond the limits
+CrossingRow checkedRun(const PlanningProblem& problem, const CrossingRun& run, LocalPlanner& planner) {
+  auto row = runCrossing(problem, run, planner);
+  if (row.outside_limits)
+    throw Error(ExitCode::kInternalError, "seed " + std::to_string(problem.seed) + ": a command beyond the limits");
+  return row;
+}
+
+/// The parameters of the planner of that name; which obstacles it sees comes from its name, the rest from `params`.
+BandPlannerParams named(BandPlannerParams params, const std::string& name) {
+  const auto view = bandPlannerParams(name).view;
+  params.view.obstacles = view.obstacles;
+  params.view.heading_of_hrvo = view.heading_of_hrvo;
+  return params;
+}
+
 ExitCode runAll(const Options& o) {
   CrossingRun run;
   const auto names = wordsOf(o.planner);
@@ -101,18 +117,13 @@ ExitCode runAll(const Options& o) {
   std::printf("  planner      goal contact timeout mean time s least clearance (m) plan ms median plan ms p95\n");
   double done = 0;
   for (const auto& name : names) {
-    const auto named = bandPlannerParams(name).view;
-    params.view.obstacles = named.obstacles;
-    params.view.heading_of_hrvo = named.heading_of_hrvo;
-    BandPlanner planner(params);
+    BandPlanner planner(named(params, name));
     if (o.threads > 1) planner.useThreads([&](int n, const auto& f) { pool.run(n, f); });
     std::vector<CrossingRow> rows;
     for (const auto& problem : problems) {
       if (interrupted()) break;
-      rows.push_back(runCrossing(problem, run, planner));
+      rows.push_back(checkedRun(problem, run, planner));
       csv += csvLine(rows.back(), name);
-      if (rows.back().outside_limits)
-        throw Error(ExitCode::kInternalError, "seed " + std::to_string(problem.seed) + ": a command beyond the limits");
       bar.update(++done / static_cast<double>(problems.size() * names.size()));
     }
     json += (json.size() > 2 ? ",\n" : "") + summary(rows, name);

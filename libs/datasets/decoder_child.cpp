@@ -3,20 +3,17 @@
 #include "datasets/decoder_child.h"
 
 #include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
-#include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <string>
 
+#include "core/process_limits.h"
 #include "datasets/object_archive.h"
 
 namespace sidestep {
@@ -24,33 +21,6 @@ namespace {
 
 constexpr int kPipe = 3;
 constexpr int kFile = 4;
-
-/// CPU time after which the kernel ends this process (SIGPROF, default action); 0 = never.
-void setCpuLimit(double seconds) {
-  itimerval timer{};
-  double whole = 0;
-  const double part = std::modf(seconds, &whole);
-  timer.it_value.tv_sec = static_cast<time_t>(whole);
-  timer.it_value.tv_usec = static_cast<suseconds_t>(part * 1e6);
-  setitimer(ITIMER_PROF, &timer, nullptr);
-}
-
-uint64_t addressSpaceInUse() {
-  unsigned long pages = 0;
-  FILE* file = std::fopen("/proc/self/statm", "r");
-  if (file == nullptr) return 0;
-  const bool ok = std::fscanf(file, "%lu", &pages) == 1;
-  std::fclose(file);
-  return ok ? pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
-}
-
-/// Relative to what is mapped already, which under a sanitizer are terabytes of shadow.
-void limitMemory(size_t bytes) {
-  const uint64_t limit = addressSpaceInUse() + bytes;
-  const rlimit as{limit, limit}, no_core{0, 0};
-  setrlimit(RLIMIT_AS, &as);
-  setrlimit(RLIMIT_CORE, &no_core);
-}
 
 /// The child dies of a broken pipe if the parent does, and of its CPU limit if it loops. It needs no parent-death
 /// signal, which would also fire when only the thread that opened the log ends. Ctrl-C is the parent's to handle.
@@ -122,10 +92,10 @@ std::unique_ptr<ByteSource> openSource(const DecodeRange& range) {
 /// Decodes until the end of the source. @throws what MRPT throws on damage
 void decodeObjects(ByteSource& source, RecordingArchive& archive, RecordSink& sink, double seconds) {
   for (;;) {
-    setCpuLimit(seconds);
+    limitCpuTime(seconds);
     if (!archive.startObject()) return;
     archive.ReadObject();
-    setCpuLimit(0);  // waiting for the reader does not count
+    limitCpuTime(0);  // waiting for the reader does not count
     sink.put(RecordKind::kObject, source.consumed(), archive.bytes().data(), archive.bytes().size());
   }
 }
@@ -152,7 +122,7 @@ void runDecoderChild(int fd, int pipe_fd, SharedBatch& batch, const DecodeRange&
     const auto source = openSource(range);
     RecordSink sink(batch);
     const std::string reason = decodeAndExplain(*source, sink, limits);
-    setCpuLimit(0);
+    limitCpuTime(0);
     const RecordKind kind = reason.empty() ? RecordKind::kEnd : RecordKind::kFailure;
     sink.put(kind, source->consumed(), reason.data(), reason.size());
     sink.flush();

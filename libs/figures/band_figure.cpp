@@ -30,6 +30,12 @@ std::string rowsOf(const std::vector<BandFigure::Line>& lines) {
   return out;
 }
 
+std::string plotOf(const std::string& title, const std::string& n, double radius_m) {
+  return "set title " + gnuplotQuoted(title) + "\nplot $o" + n + " u 1:2:(" + shortestNumber(radius_m) +
+         ") w circles lc rgb '#bbbbbb', $a" + n + " w lines lc rgb '#777777', $b" + n +
+         " w linespoints pt 7 ps 0.4 lc rgb '#cc0000'\n";
+}
+
 }  // namespace
 
 void drawBands(const BandFigure& figure, const std::string& png_file) {
@@ -40,9 +46,7 @@ void drawBands(const BandFigure& figure, const std::string& png_file) {
     std::string obstacles;
     for (const auto& o : panel.obstacles) obstacles += row(o.x, o.y);
     data += block("$o" + n, obstacles) + block("$a" + n, rowsOf(panel.others)) + block("$b" + n, rowsOf(panel.chosen));
-    plots += "set title " + gnuplotQuoted(panel.title) + "\nplot $o" + n + " u 1:2:(" +
-             shortestNumber(figure.radius_m) + ") w circles lc rgb '#bbbbbb', $a" + n +
-             " w lines lc rgb '#777777', $b" + n + " w linespoints pt 7 ps 0.4 lc rgb '#cc0000'\n";
+    plots += plotOf(panel.title, n, figure.radius_m);
   }
   const int count = static_cast<int>(figure.panels.size());
   const int columns = count <= 4 ? std::clamp(count, 1, 2) : 3, rows = std::max(1, (count + columns - 1) / columns);

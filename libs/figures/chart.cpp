@@ -84,14 +84,19 @@ std::string curveRange(const Extent& y) {
   return range("y", "0", shortestNumber(1.05 * std::max(y.most, 1e-9)));
 }
 
+std::string shownPoints(const CurveChart::Curve& curve) {
+  std::string data;
+  for (const auto& p : curve.points)
+    if (isShown(p.value)) addNumbers(data, {p.x, p.value.value, p.value.low, p.value.high});
+  return data;
+}
+
 /// The plot of one panel, a curve after the other; `blocks` takes the data.
 std::string curvePanel(const CurveChart::Panel& panel, const std::string& number, std::string& blocks) {
   std::string bands, curves;
   for (size_t i = 0; i < panel.curves.size(); ++i) {
     const auto& curve = panel.curves[i];
-    std::string data;
-    for (const auto& p : curve.points)
-      if (isShown(p.value)) addNumbers(data, {p.x, p.value.value, p.value.low, p.value.high});
+    const std::string data = shownPoints(curve);
     if (data.empty()) continue;
     const std::string block = "$c" + number + "_" + std::to_string(i), colour = figureColour(curve.colour);
     blocks += block + " << EOD\n" + data + "EOD\n";

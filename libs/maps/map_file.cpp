@@ -8,7 +8,6 @@
 #include <mrpt/maps/registerAllClasses.h>
 #include <mrpt/obs/registerAllClasses.h>
 #include <mrpt/serialization/CArchive.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -21,6 +20,7 @@
 #include <fstream>
 
 #include "core/errors.h"
+#include "core/process_limits.h"
 #include "maps/image_file.h"
 #include "maps/ros_map.h"
 
@@ -31,6 +31,7 @@ using mrpt::maps::COccupancyGridMap2D;
 
 constexpr size_t kMostBytes = 1u << 29;       ///< of a map once unpacked
 constexpr size_t kDecodeMemory = 2ull << 30;  ///< what decoding scans may take on top of what we have
+constexpr double kDecodeSeconds = 60;         ///< of CPU time
 
 /// The file's bytes, unpacked if it is gzip.
 std::string unpacked(const std::string& file) {
@@ -117,9 +118,8 @@ GridMap readGridmap(const std::string& file) {
 bool survivesDecoding(const std::string& bytes) {
   const pid_t child = fork();
   if (child == 0) {
-    rlimit memory{kDecodeMemory, kDecodeMemory}, seconds{60, 60};
-    setrlimit(RLIMIT_DATA, &memory);
-    setrlimit(RLIMIT_CPU, &seconds);
+    limitMemory(kDecodeMemory);
+    limitCpuTime(kDecodeSeconds);
     try {
       mrpt::maps::CSimpleMap map;
       decode(bytes, map);
@@ -131,6 +131,18 @@ bool survivesDecoding(const std::string& bytes) {
   int status = 1;
   if (child < 0 || waitpid(child, &status, 0) != child) return false;
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// Occupied, unknown, free as grey values, by the thresholds that writeRosMap writes; the top row first.
+GreyImage greyOf(const GridMap& map) {
+  const GridFrame frame = map.frame();
+  GreyImage out{frame.width, frame.height, {}, {}};
+  for (int row = frame.height - 1; row >= 0; --row)
+    for (int column = 0; column < frame.width; ++column) {
+      const float free = map.grid->getCell(column, row);
+      out.grey.push_back(free < 0.35F ? 0 : (free > 0.804F ? 254 : 205));
+    }
+  return out;
 }
 
 GridMap readSimplemap(const std::string& file, double resolution_m) {
@@ -195,16 +207,9 @@ GridMap readMap(const std::string& file, const MapReadParams& params) {
 void writeRosMap(const GridMap& map, const std::string& yaml_file) {
   if (!yaml_file.ends_with(".yaml")) throw ConfigError(yaml_file + ": the name of a ROS map must end in .yaml");
   const std::filesystem::path image = std::filesystem::path(yaml_file).replace_extension(".pgm");
-  const GridFrame frame = map.frame();
-  GreyImage out{frame.width, frame.height, {}, {}};
-  for (int row = frame.height - 1; row >= 0; --row)
-    for (int column = 0; column < frame.width; ++column) {
-      const float free = map.grid->getCell(column, row);
-      out.grey.push_back(free < 0.35F ? 0 : (free > 0.804F ? 254 : 205));
-    }
-  writePgm(out, image.string());
+  writePgm(greyOf(map), image.string());
   std::ofstream yaml(yaml_file, std::ios::binary);
-  const auto& T = frame.T_map_grid;
+  const auto T = map.frame().T_map_grid;
   yaml << "image: " << image.filename().string() << "\nresolution: " << shortFloat(map.grid->getResolution())
        << "\norigin: [" << shortFloat(static_cast<float>(T.x)) << ", " << shortFloat(static_cast<float>(T.y)) << ", "
        << shortestNumber(T.phi) << "]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\nmode: trinary\n";

@@ -134,15 +134,24 @@ RosMapHeader readRosMapHeader(const std::string& yaml_file) {
   return m;
 }
 
+namespace {
+
+/// MRPT rounds the size that a grid is asked for.
+void requireSize(const mrpt::maps::COccupancyGridMap2D& grid, const GreyImage& image, const std::string& file) {
+  if (static_cast<int>(grid.getSizeX()) == image.width && static_cast<int>(grid.getSizeY()) == image.height) return;
+  throw DatasetError::corrupt(file + ": " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                              " pixels do not fit a grid of this resolution");
+}
+
+}  // namespace
+
 GridMap gridOfImage(const GreyImage& image, const RosMapHeader& header) {
   const bool turned = header.origin.phi != 0;
   const mrpt::math::TPose2D corner = turned ? mrpt::math::TPose2D() : header.origin;
   GridMap map{std::make_shared<PlacedGrid>(image.width, image.height, static_cast<float>(header.resolution_m),
                                            static_cast<float>(corner.x), static_cast<float>(corner.y)),
               turned ? header.origin : mrpt::math::TPose2D()};
-  if (static_cast<int>(map.grid->getSizeX()) != image.width || static_cast<int>(map.grid->getSizeY()) != image.height)
-    throw DatasetError::corrupt(header.image + ": " + std::to_string(image.width) + " x " +
-                                std::to_string(image.height) + " pixels do not fit a grid of this resolution");
+  requireSize(*map.grid, image, header.image);
   const auto occupied = occupancyOfGrey(header);
   for (int row = 0; row < image.height; ++row)
     for (int column = 0; column < image.width; ++column) {

@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "support/run_program.h"
+#include "support/source_files.h"
 
 namespace sidestep::testing {
 namespace {
@@ -80,6 +80,59 @@ TEST(IncludeDirection, OwnModuleModulesAboveAndOthersLibrariesAreAllowed) {
                        "#include \"localization/filters/ekf.h\"\n#include \"core/params.h\"\n#include <vector>\n"
                        "#include <mrpt/maps/COccupancyGridMap2D.h>\n// #include \"datasets/x.h\"\n"),
             "");
+}
+
+using Includes = std::map<std::string, std::vector<std::string>>;
+
+/// Which file of ours includes which others of ours.
+Includes includesOf(const std::map<std::string, std::string>& files) {
+  static const std::regex include("(^|\n)[ \t]*#[ \t]*include[ \t]*\"([^\"\n]+)\"");
+  Includes out;
+  for (const auto& [file, text] : files)
+    for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it)
+      if (files.count((*it)[2]) > 0) out[file].push_back((*it)[2]);
+  return out;
+}
+
+/// The files of a circle that can be reached from `file`, "" if there is none. @param done  files that are in no circle
+std::string circleFrom(const std::string& file, const Includes& includes, std::vector<std::string>& path,
+                       std::set<std::string>& done) {
+  if (done.count(file) > 0) return "";
+  const auto seen = std::find(path.begin(), path.end(), file);
+  if (seen != path.end()) {
+    std::string out;
+    for (auto it = seen; it != path.end(); ++it) out += *it + " -> ";
+    return out + file;
+  }
+  path.push_back(file);
+  if (const auto row = includes.find(file); row != includes.end())
+    for (const auto& next : row->second)
+      if (auto circle = circleFrom(next, includes, path, done); !circle.empty()) return circle;
+  path.pop_back();
+  done.insert(file);
+  return "";
+}
+
+std::string firstCircle(const Includes& includes) {
+  std::set<std::string> done;
+  for (const auto& [file, targets] : includes) {
+    std::vector<std::string> path;
+    if (auto circle = circleFrom(file, includes, path, done); !circle.empty()) return circle;
+  }
+  return "";
+}
+
+TEST(IncludeDirection, NoFilesIncludeEachOtherInACircle) {
+  const auto includes = includesOf(sourceFiles());
+  EXPECT_EQ(firstCircle(includes), "");
+  EXPECT_GT(includes.size(), 100u);
+}
+
+TEST(IncludeDirection, ACircleIsFound) {
+  EXPECT_EQ(firstCircle(includesOf({{"m/a.h", "#include \"m/b.h\"\n#include <vector>\n"},
+                                    {"m/b.h", "#pragma once\n#include \"m/c.h\"\n"},
+                                    {"m/c.h", "#include \"m/b.h\"\n"}})),
+            "m/b.h -> m/c.h -> m/b.h");
 }
 
 }  // namespace

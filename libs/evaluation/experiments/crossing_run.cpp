@@ -20,6 +20,18 @@ bool inside(const mrpt::math::TTwist2D& c, const mrpt::math::TTwist2D& now, cons
          dv <= std::max(l.accel, l.brake) * in.period_s + kRound && dw <= l.turn_accel * in.period_s + kRound;
 }
 
+/// Moves `pose` by one step while speeds change evenly from what they were to what was ordered.
+/// @param share  of that change which is done in the middle of the step
+void advance(mrpt::math::TPose2D& pose, const mrpt::math::TTwist2D& before, const mrpt::math::TTwist2D& ordered,
+             double share) {
+  const double v = before.vx + share * (ordered.vx - before.vx);
+  const double w = before.omega + share * (ordered.omega - before.omega);
+  const double heading = pose.phi + w * kStep_s / 2;
+  pose.x += v * kStep_s * std::cos(heading);
+  pose.y += v * kStep_s * std::sin(heading);
+  pose.phi = std::remainder(pose.phi + w * kStep_s, 2 * M_PI);
+}
+
 }  // namespace
 
 CrossingRow runCrossing(const PlanningProblem& problem, const CrossingRun& run, LocalPlanner& planner) {
@@ -56,14 +68,7 @@ CrossingRow runCrossing(const PlanningProblem& problem, const CrossingRun& run, 
       row.braked += out.status == PlanOutput::Status::kMoving ? 0 : 1;
       before = in.twist;
     }
-    // speeds change evenly from what they were to what was ordered
-    const double share = (step % kStepsPerPlan + 0.5) / kStepsPerPlan;
-    const double v = before.vx + share * (out.command.vx - before.vx);
-    const double w = before.omega + share * (out.command.omega - before.omega);
-    const double heading = in.pose.phi + w * kStep_s / 2;
-    in.pose.x += v * kStep_s * std::cos(heading);
-    in.pose.y += v * kStep_s * std::sin(heading);
-    in.pose.phi = std::remainder(in.pose.phi + w * kStep_s, 2 * M_PI);
+    advance(in.pose, before, out.command, (step % kStepsPerPlan + 0.5) / kStepsPerPlan);
     if (step % kStepsPerPlan == kStepsPerPlan - 1) in.twist = out.command;
     for (auto& o : people) o.position = o.position + o.velocity * kStep_s;
   }

@@ -50,6 +50,14 @@ BarChart barsOf(const Study& study, const std::string& metric, const std::string
   return chart;
 }
 
+/// A curve without points for each algorithm.
+CurveChart::Panel emptyPanel(const Study& study, const std::string& title) {
+  CurveChart::Panel panel;
+  panel.title = title;
+  for (size_t a = 0; a < study.algorithms().size(); ++a) panel.curves.push_back({study.algorithms()[a], a, {}});
+  return panel;
+}
+
 /// Rows on an axis: a panel a scenario of the group.
 CurveChart curvesOf(const Study& study, const std::string& metric, const std::string& what, const std::string& group,
                     const Lines& lines) {
@@ -62,9 +70,7 @@ CurveChart curvesOf(const Study& study, const std::string& metric, const std::st
     const auto& row = study.rows()[l->row];
     if (chart.panels.empty() || scenario != row.scenario) {
       scenario = row.scenario;
-      auto& panel = chart.panels.emplace_back();
-      panel.title = row.name.substr(0, row.name.rfind('@'));
-      for (size_t a = 0; a < study.algorithms().size(); ++a) panel.curves.push_back({study.algorithms()[a], a, {}});
+      chart.panels.push_back(emptyPanel(study, row.name.substr(0, row.name.rfind('@'))));
     }
     chart.panels.back().curves[l->algorithm].points.push_back({*row.x, valueOf(*l)});
   }

@@ -9,13 +9,6 @@
 namespace sidestep {
 namespace {
 
-double quantile(const std::vector<double>& sorted, double q) {
-  const double at = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<size_t>(at);
-  if (below + 1 >= sorted.size()) return sorted.back();
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
-}
-
 /// The largest k >= 1 with P(binomial(n, 1/2) < k) <= 0.025, else 1.
 size_t medianRank(size_t n) {
   double sum = 0, log_term = -static_cast<double>(n) * std::log(2.0);
@@ -35,11 +28,9 @@ QuantileLine lineOf(const Study& study, size_t row, size_t algorithm, size_t met
   line.algorithm_name = study.algorithms()[algorithm];
   line.metric = study.runner().metrics()[metric].name;
   line.n = values.size();
-  if (values.empty()) {
-    line.at.fill(NAN);
-    line.median_low = line.median_high = NAN;
-    return line;
-  }
+  line.at.fill(NAN);
+  line.median_low = line.median_high = NAN;
+  if (values.empty()) return line;
   std::sort(values.begin(), values.end());
   for (size_t i = 0; i < kQuantiles.size(); ++i) line.at[i] = quantile(values, kQuantiles[i]);
   const size_t k = medianRank(values.size());

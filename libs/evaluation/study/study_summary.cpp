@@ -55,6 +55,17 @@ void compare(const Study& study, const Values& values, size_t metric, Random& ra
   line.p_value = signFlipPValue(differences, random);
 }
 
+/// Of all runs of one cell.
+std::vector<double> finiteValues(const Study& study, const Values& values, size_t row, size_t algorithm,
+                                 size_t metric) {
+  std::vector<double> sample;
+  for (size_t run = 0; run < static_cast<size_t>(study.runs); ++run) {
+    const double v = values.at(row, algorithm, run, metric);
+    if (std::isfinite(v)) sample.push_back(v);
+  }
+  return sample;
+}
+
 SummaryLine summaryOf(const Study& study, const Values& values, size_t row, size_t algorithm, size_t metric) {
   SummaryLine line;
   line.row = row;
@@ -62,14 +73,9 @@ SummaryLine summaryOf(const Study& study, const Values& values, size_t row, size
   line.scenario = study.rows()[row].name;
   line.algorithm_name = study.algorithms()[algorithm];
   line.metric = study.runner().metrics()[metric].name;
-  std::vector<double> sample;
-  for (size_t run = 0; run < static_cast<size_t>(study.runs); ++run) {
-    const double v = values.at(row, algorithm, run, metric);
-    if (std::isfinite(v)) sample.push_back(v);
-  }
   Random random(static_cast<uint64_t>(study.seed),
                 textHash(line.scenario + "," + line.algorithm_name + "," + line.metric));
-  line.summary = summarize(sample, random);
+  line.summary = summarize(finiteValues(study, values, row, algorithm, metric), random);
   line.reference = reference(study, line);
   compare(study, values, metric, random, line);
   return line;

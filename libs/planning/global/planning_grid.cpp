@@ -134,7 +134,10 @@ PlanningGrid::Ends PlanningGrid::ends(const TPose2D& start, const TPose2D& goal)
   return out;
 }
 
-std::vector<TPose2D> posesAlong(const std::vector<TPoint2D>& points, double goal_heading) {
+namespace {
+
+/// Without repeated points and those in the middle of straight pieces.
+std::vector<TPoint2D> cornersOf(const std::vector<TPoint2D>& points) {
   std::vector<TPoint2D> kept;
   for (const auto& p : points) {
     if (!kept.empty() && (p - kept.back()).norm() < 1e-9) continue;
@@ -145,6 +148,13 @@ std::vector<TPose2D> posesAlong(const std::vector<TPoint2D>& points, double goal
     }
     kept.push_back(p);
   }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<TPose2D> posesAlong(const std::vector<TPoint2D>& points, double goal_heading) {
+  const auto kept = cornersOf(points);
   std::vector<TPose2D> out;
   for (size_t i = 0; i < kept.size(); ++i) {
     const bool last = i + 1 == kept.size();

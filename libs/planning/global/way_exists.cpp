@@ -82,6 +82,18 @@ double firstArrival(std::span<const MovingObstacle> obstacles, double v_max, dou
   return 0;
 }
 
+/// 1 for each cell in which a centre of an obstacle lies.
+std::vector<uint8_t> cellsOf(std::span<const MovingObstacle> obstacles, const GridFrame& frame) {
+  std::vector<uint8_t> blocked(static_cast<size_t>(frame.width) * static_cast<size_t>(frame.height));
+  for (const auto& o : obstacles) {
+    const double x = (o.position.x - frame.T_map_grid.x) / frame.resolution_m;
+    const double y = (o.position.y - frame.T_map_grid.y) / frame.resolution_m;
+    if (x >= 0 && y >= 0 && x < frame.width && y < frame.height)
+      blocked[static_cast<size_t>(y) * static_cast<size_t>(frame.width) + static_cast<size_t>(x)] = 1;
+  }
+  return blocked;
+}
+
 }  // namespace
 
 WayVerdict standingWay(std::span<const MovingObstacle> obstacles, const RobotLimits& robot) {
@@ -90,14 +102,7 @@ WayVerdict standingWay(std::span<const MovingObstacle> obstacles, const RobotLim
   frame.width = static_cast<int>((kGoal_m + kAround_m) / frame.resolution_m);
   frame.height = static_cast<int>(2 * kAround_m / frame.resolution_m);
   frame.T_map_grid = {-kAround_m / 2, -kAround_m, 0};
-  std::vector<uint8_t> blocked(static_cast<size_t>(frame.width) * static_cast<size_t>(frame.height));
-  for (const auto& o : obstacles) {
-    const double x = (o.position.x - frame.T_map_grid.x) / frame.resolution_m;
-    const double y = (o.position.y - frame.T_map_grid.y) / frame.resolution_m;
-    if (x >= 0 && y >= 0 && x < frame.width && y < frame.height)
-      blocked[static_cast<size_t>(y) * static_cast<size_t>(frame.width) + static_cast<size_t>(x)] = 1;
-  }
-  const auto field = std::make_shared<const DistanceField>(frame, blocked);
+  const auto field = std::make_shared<const DistanceField>(frame, cellsOf(obstacles, frame));
   const auto grid = std::make_shared<const PlanningGrid>(field, robot.radius_m);
   const GlobalPath path = makeGlobalPlanner("theta", grid, {})->plan({0, 0, 0}, {kGoal_m, 0, 0});
   if (!path.found()) return {"no", 0};
