@@ -11,6 +11,7 @@
 #include "common/program.h"
 #include "datasets/ground_truth.h"
 #include "figures/path_figure.h"
+#include "maps/nearest_reachable.h"
 
 namespace sidestep {
 namespace {
@@ -101,17 +102,19 @@ class Run {
 void Run::moveEnds() {
   for (auto& pair : pairs_)
     for (auto* pose : {&pair.start, &pair.goal}) {
-      const auto place =
-          field_->nearestFree({pose->x, pose->y}, config_.planning.clearance_m, config_.nearest_within_m);
+      const auto way =
+          wayToClearance(*field_, {pose->x, pose->y}, config_.planning.clearance_m, config_.nearest_within_m);
       const std::string end = pose == &pair.start ? "start" : "goal";
-      if (!place)
-        std::fprintf(stderr, "sidestep-plan: %s not moved: nothing is free within %s m (nearest_within_m)\n",
+      if (way.empty())
+        std::fprintf(stderr,
+                     "sidestep-plan: %s not moved: no way of at most %s m (nearest_within_m) leads to free space\n",
                      end.c_str(), shortestNumber(config_.nearest_within_m).c_str());
-      if (!place || *place == mrpt::math::TPoint2D(pose->x, pose->y)) continue;
-      moved_.push_back(end + " moved by " + fixed((*place - mrpt::math::TPoint2D(pose->x, pose->y)).norm(), 2) +
-                       " m to (" + fixed(place->x, 2) + ", " + fixed(place->y, 2) + ")");
+      if (way.size() < 2) continue;
+      const auto place = way.back();
+      moved_.push_back(end + " moved by " + fixed((place - way.front()).norm(), 2) + " m to (" + fixed(place.x, 2) +
+                       ", " + fixed(place.y, 2) + ")");
       std::fprintf(stderr, "sidestep-plan: %s\n", moved_.back().c_str());
-      pose->x = place->x, pose->y = place->y;
+      pose->x = place.x, pose->y = place.y;
     }
 }
 

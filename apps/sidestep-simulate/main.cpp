@@ -23,6 +23,10 @@ int main(int argc, char** argv) {
   app.add_flag("--no-picture", o.no_picture, "do not draw trajectory.png, timeline.png");
   app.add_flag("--video", o.video, "film a world: run.mp4, through ffmpeg");
   app.add_flag("--write-config", o.write_config, "print all parameters as commented YAML and exit");
+  app.add_option("--kind", o.kind, "of the scenario that --write-config prints")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"localization", "world"}));
+  app.add_flag("--force", o.force, "run a world although something overlaps in it or cannot be reached");
   app.footer(
       "Example:\n"
       "  sidestep-simulate share/scenarios/roof-curve.yaml -o out-roof\n"

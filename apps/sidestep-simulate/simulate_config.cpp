@@ -18,6 +18,9 @@ void checkSnapshots(const SimulateOptions& o, const std::string& scenarios_own) 
 
 Scenario effectiveScenario(const SimulateOptions& o) {
   Scenario c;
+  if (!o.kind.empty() && !(o.write_config && o.scenario.empty()))
+    throw ConfigError("--kind: only with --write-config and without a SCENARIO, which says its kind itself");
+  if (!o.kind.empty()) c = Scenario::exampleOf(o.kind);
   if (!o.scenario.empty()) c = Scenario::read(o.scenario);
   if (o.seed && *o.seed < 0) throw ConfigError("--seed " + std::to_string(*o.seed) + ": must not be negative");
   if (o.seed) c.seed = *o.seed;

@@ -7,6 +7,8 @@
 namespace sidestep {
 
 /// Runs a world scenario into `folder`: run.rawlog, trajectory.png, metrics.json, run.mp4 if asked for.
-ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const OutputFolder& folder);
+/// @param inputs  the files that the scenario names, as `readWorldInputs` reads them
+ExitCode runWorld(const SimulateOptions& options, const Scenario& config, const WorldInputs& inputs,
+                  const OutputFolder& folder);
 
 }  // namespace sidestep

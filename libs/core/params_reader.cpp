@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
@@ -165,8 +166,18 @@ class YamlReader final : public ParamVisitor {
     return n.IsSequence() ? "a list" : n.IsMap() ? "a map" : "nothing";
   }
   static std::string hint(const std::string& word, const std::vector<std::string>& known) {
-    const auto near = nearestWord(word, known);
+    auto near = nearestWord(word, known);
+    if (near.empty()) near = synonymOf(word, known);
     return near.empty() ? "" : "; did you mean '" + near + "'?";
+  }
+  /// Words that are no misspellings, but are meant often.
+  static std::string synonymOf(const std::string& word, const std::vector<std::string>& known) {
+    static const std::pair<const char*, const char*> table[] = {
+        {"planner", "robot"}, {"driver", "planner"}, {"obstacles", "walls"},   {"pedestrians", "people"},
+        {"humans", "people"}, {"agents", "people"},  {"time_s", "duration_s"}, {"path", "waypoints"}};
+    for (const auto& [said, meant] : table)
+      if (word == said && std::find(known.begin(), known.end(), meant) != known.end()) return meant;
+    return "";
   }
   [[noreturn]] void fail(const YAML::Node& at, const std::string& name, const std::string& what) const {
     throw ConfigError(file_ + ":" + std::to_string(at.Mark().line + 1) + ": " + name + " " + what);

@@ -77,25 +77,42 @@ void DistanceFieldParams::visit(ParamVisitor& v) {
   v.flag("negative_inside", negative_inside, "inside of obstacles the field is minus the way out, instead of 0");
 }
 
-DistanceField::DistanceField(const GridFrame& frame, std::span<const uint8_t> blocked,
-                             const DistanceFieldParams& params)
+DistanceField::DistanceField(const GridFrame& frame, size_t cells, const DistanceFieldParams& params)
     : frame_(frame), params_(params) {
   if (frame.width <= 0 || frame.height <= 0) throw ConfigError("distance field: the map has no cells");
   if (!(frame.resolution_m > 0) || !std::isfinite(frame.resolution_m))
     throw ConfigError("distance field: the resolution must be a positive number of metres");
-  if (blocked.size() != static_cast<size_t>(frame.width) * static_cast<size_t>(frame.height))
+  if (cells != static_cast<size_t>(frame.width) * static_cast<size_t>(frame.height))
     throw ConfigError("distance field: as many cells are needed as the frame has");
   cos_ = std::cos(frame.T_map_grid.phi), sin_ = std::sin(frame.T_map_grid.phi);
   cells_per_m_ = 1 / frame.resolution_m;
   stride_ = static_cast<size_t>(frame.width) + 2;
   free_.assign(stride_ * (static_cast<size_t>(frame.height) + 2), 0);
   values_.resize(free_.size());
+}
+
+DistanceField::DistanceField(const GridFrame& frame, std::span<const uint8_t> blocked,
+                             const DistanceFieldParams& params)
+    : DistanceField(frame, blocked.size(), params) {
   for (int iy = 0; iy < frame.height; ++iy) {
     const uint8_t* row = blocked.data() + static_cast<size_t>(iy) * static_cast<size_t>(frame.width);
     std::transform(row, row + frame.width, free_.begin() + static_cast<std::ptrdiff_t>(index(0, iy)),
                    [](uint8_t b) { return static_cast<uint8_t>(b == 0 ? 255 : 0); });
   }
   compute({0, 0, frame.width + 1, frame.height + 1});
+}
+
+DistanceField::DistanceField(const GridFrame& frame, std::span<const float> clearances,
+                             const DistanceFieldParams& params)
+    : DistanceField(frame, clearances.size(), params) {
+  const auto cap = static_cast<float>(params.cap_m);
+  for (int iy = 0; iy < frame.height; ++iy)
+    for (int ix = 0; ix < frame.width; ++ix) {
+      const float value =
+          clearances[static_cast<size_t>(iy) * static_cast<size_t>(frame.width) + static_cast<size_t>(ix)];
+      values_[index(ix, iy)] = std::clamp(value, params.negative_inside ? -cap : 0.0F, cap);
+      free_[index(ix, iy)] = value > 0 ? 255 : 0;
+    }
 }
 
 /// How far in cells an obstacle can matter.

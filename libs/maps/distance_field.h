@@ -47,6 +47,10 @@ class DistanceField {
   /// @param blocked  one byte a cell, 0 = free; width * height of them
   /// @throws ConfigError if the frame has no cells or no positive resolution, or the count does not fit.
   DistanceField(const GridFrame& frame, std::span<const uint8_t> blocked, const DistanceFieldParams& params = {});
+  /// From the clearance at each cell's centre [m], where that is known better than by cells, for example of walls; cut
+  /// to the cap. `update` knows nothing of such obstacles: around its window it would lose those that block no cell.
+  /// @throws ConfigError as above.
+  DistanceField(const GridFrame& frame, std::span<const float> clearances, const DistanceFieldParams& params = {});
 
   /// [m], at most the cap; minus infinity for a position that is not finite.
   double clearance(double x, double y) const;
@@ -92,6 +96,7 @@ class DistanceField {
   struct GridPoint {
     double u, v;  ///< in cells; whole numbers are centres of the padded raster, whose own cells start at 1
   };
+  DistanceField(const GridFrame& frame, size_t cells, const DistanceFieldParams& params);
   size_t index(int ix, int iy) const { return static_cast<size_t>(iy + 1) * stride_ + static_cast<size_t>(ix + 1); }
   GridPoint toGrid(double x, double y) const;
   double lowestAlong(const GridPoint& a, const GridPoint& b, double at_most, bool stop_below) const;

@@ -12,8 +12,8 @@ namespace sidestep {
 
 struct GlobalRouteParams {
   std::string planner = "none";  ///< none, or a global planner that draws no random numbers
-  double margin_m = 0.3;         ///< between the robot's rim and walls
-  double resolution_m = 0.1;     ///< of the map made of the walls
+  double margin_m = 0.3;         ///< wanted between the robot's rim and walls
+  double resolution_m = 0.05;    ///< of the map made of the walls
   double spacing_m = 0.5;        ///< between the path's points
   double off_m = 1.5;            ///< farther from the path than this, it is planned anew
   double patience_s = 4;         ///< so is it if the robot has not got on for so long
@@ -24,6 +24,7 @@ struct GlobalRouteParams {
 
 /// The global path of a robot among the walls it is told of, to whatever goal it has at the time.
 ///
+/// Start and goal without room, beside a wall, are joined by the shortest way that leads through no wall.
 /// Planned when the goal is another one, when the robot is far off, and when it does not get on; around walls, and
 /// around those that it has seen standing (if there is a way around them). The same situations give the same paths.
 class GlobalRoute {
@@ -43,8 +44,8 @@ class GlobalRoute {
   };
   void note(const Situation& now);
   bool isDue(const Situation& now) const;
-  GlobalPath plan(const Situation& now, bool around_standing) const;
-  void setPath(const std::vector<mrpt::math::TPose2D>& poses, const Situation& now);
+  std::vector<mrpt::math::TPoint2D> plan(const Situation& now, bool around_standing) const;
+  void setPath(const std::vector<mrpt::math::TPoint2D>& points, const Situation& now);
 
   GlobalRouteParams params_;
   double radius_m_;

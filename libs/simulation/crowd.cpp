@@ -13,6 +13,8 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kArrived_m = 0.2;
+constexpr double kLook_s = 0.2;  // between two looks around for the way
+constexpr double kStuck_s = 10, kRest_m = 0.5;
 constexpr double kGone_m = 1e6;  // where those wait who are not there
 
 TPoint2D scaled(const TPoint2D& p, double by) { return {p.x * by, p.y * by}; }
@@ -124,7 +126,7 @@ void Crowd::replay(Walker& w, Person& p, double time_s) const {
 /// Desired velocity: towards the next point at full speed.
 TPoint2D Crowd::wanted(const Walker& w, const Person& p) const {
   if (w.next >= w.way.size()) return {0, 0};
-  const TPoint2D to = w.way[w.next] - p.position;
+  const TPoint2D to = (w.model == Walker::Model::kSocialForce ? w.aim : w.way[w.next]) - p.position;
   const double distance = to.norm();
   return distance > 1e-9 ? scaled(to, w.speed / distance) : TPoint2D(0, 0);
 }
@@ -171,7 +173,11 @@ void Crowd::accelerate(size_t i, std::span<const Body> robots, const WallIndex& 
   if (w.sees_robots)
     for (const Body& robot : robots)
       feel(robot.position, robot.velocity, robot.radius_m - p.radius_m + forces_.robot_room_m);
-  f += fromWalls(p, walls);
+  TPoint2D push = fromWalls(p, walls);
+  // Walls beside the way do not brake those who have it free before them: a door would be a barrier.
+  if (const double speed = want.norm(); w.aim_in_sight && speed > 0)
+    push -= scaled(want, std::min(0.0, dot(push, want)) / (speed * speed));
+  f += push;
   if (w.held_together) {
     const TPoint2D to = centres_[w.group] - p.position;
     const double d = to.norm();
@@ -192,10 +198,13 @@ void Crowd::findCentres() {
     if (members_[g] > 0) centres_[g] = scaled(centres_[g], 1 / members_[g]);
 }
 
-void Crowd::arrive(Walker& w, Person& p, double dt_s) {
+void Crowd::arrive(Walker& w, Person& p, double dt_s, const WallIndex& walls) {
   if (w.next >= w.way.size()) return;
-  const double near = w.model == Walker::Model::kStraight ? w.speed * dt_s : kArrived_m + w.speed * 0.1;
+  const bool straight = w.model == Walker::Model::kStraight;
+  const double near = straight ? w.speed * dt_s : kArrived_m + w.speed * 0.1;
   if ((w.way[w.next] - p.position).norm() > near) return;
+  if (!straight && walls.blocks(p.position, w.way[w.next], near_walls_)) return;  // on the other side of a wall
+  w.aim_until_s = -1;
   if (++w.next < w.way.size()) return;
   if (w.then == "leave") {
     p.present = false;
@@ -207,7 +216,35 @@ void Crowd::arrive(Walker& w, Person& p, double dt_s) {
   w.next = 1;
 }
 
-void Crowd::move(Walker& w, Person& p, double dt_s) {
+/// Walks round walls: to the next point if it is in sight, else to a point on the way there.
+void Crowd::lookAround(Walker& w, const Person& p, double time_s, const WallIndex& walls) {
+  if (w.next >= w.way.size() || time_s < w.aim_until_s) return;
+  w.aim = ways_.towards(p.position, w.way[w.next], walls);
+  w.aim_in_sight = !walls.blocks(p.position, w.aim, near_walls_);
+  w.aim_until_s = time_s + kLook_s;
+}
+
+void Crowd::noteRest(Walker& w, const Person& p, double time_s) {
+  if (w.next >= w.way.size() || !p.present || w.speed <= 0) {
+    w.rested_since_s = -1;
+    return;
+  }
+  if (w.rested_since_s < 0 || (p.position - w.rested_at).norm() > kRest_m) {
+    w.rested_at = p.position;
+    w.rested_since_s = time_s;
+  }
+  if (const double rested = time_s - w.rested_since_s; rested >= kStuck_s && rested > w.longest.for_s)
+    w.longest = {p.id, p.position, w.rested_since_s, rested};
+}
+
+std::vector<StuckPerson> Crowd::stuck() const {
+  std::vector<StuckPerson> out;
+  for (const Walker& w : walkers_)
+    if (w.longest.for_s > 0) out.push_back(w.longest);
+  return out;
+}
+
+void Crowd::move(Walker& w, Person& p, double dt_s, const WallIndex& walls) {
   if (w.model == Walker::Model::kStraight) {
     p.velocity = wanted(w, p);
   } else {
@@ -219,7 +256,7 @@ void Crowd::move(Walker& w, Person& p, double dt_s) {
   p.position += scaled(p.velocity, dt_s);
   p.walked_m += speed * dt_s;
   if (speed > 0.05) p.heading = std::atan2(p.velocity.y, p.velocity.x);
-  arrive(w, p, dt_s);
+  arrive(w, p, dt_s, walls);
 }
 
 void Crowd::step(double time_s, double dt_s, std::span<const Body> robots, const WallIndex& walls) {
@@ -238,14 +275,17 @@ void Crowd::step(double time_s, double dt_s, std::span<const Body> robots, const
     if (w.model != Walker::Model::kSocialForce || !people_[i].present) continue;
     if (forces_.fluctuation > 0)
       w.fluctuation = scaled(w.fluctuation, keep) + TPoint2D(fresh * random_.gaussian(), fresh * random_.gaussian());
+    lookAround(w, people_[i], time_s, walls);
     accelerate(i, robots, walls);
   }
   for (size_t i = 0; i < people_.size(); ++i) {
     Walker& w = walkers_[i];
-    if (w.model == Walker::Model::kReplay)
+    if (w.model == Walker::Model::kReplay) {
       replay(w, people_[i], time_s);
-    else if (people_[i].present && time_s > w.start_s)
-      move(w, people_[i], dt_s);
+    } else if (people_[i].present && time_s > w.start_s) {
+      move(w, people_[i], dt_s, walls);
+      noteRest(w, people_[i], time_s);
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "simulation/neighbour_grid.h"
 #include "simulation/social_force.h"
+#include "simulation/walking_ways.h"
 #include "simulation/wall_index.h"
 
 namespace sidestep {
@@ -62,8 +63,15 @@ struct Body {
   double radius_m = 0.3;
 };
 
+/// Somebody who wanted to walk on and did not get on for a while.
+struct StuckPerson {
+  int id = 0;
+  mrpt::math::TPoint2D position;
+  double from_s = 0, for_s = 0;  ///< since when, how long; the longest such while
+};
+
 /// All people of a world: those who walk straight or from point to point, whatever is in the way; those who follow the
-/// social force model; those who were recorded.
+/// social force model, and walk round walls to points that they do not see; those who were recorded.
 class Crowd {
  public:
   Crowd(const std::vector<PeopleParams>& groups, const std::vector<RecordedTrack>& tracks,
@@ -74,6 +82,8 @@ class Crowd {
   /// Goes on by `dt_s` to `time_s`. Costs about linearly in people at a given density.
   void step(double time_s, double dt_s, std::span<const Body> robots, const WallIndex& walls);
   const std::vector<Person>& people() const { return people_; }
+  /// Who moved by less than half a metre for 10 s or longer although it was under way, so far.
+  std::vector<StuckPerson> stuck() const;
 
  private:
   struct Walker {
@@ -88,6 +98,12 @@ class Crowd {
     mrpt::math::TPoint2D fluctuation, acceleration;
     const RecordedTrack* track = nullptr;
     size_t track_at = 0;
+    mrpt::math::TPoint2D aim;  ///< where it walks to now, on the way to way[next]
+    double aim_until_s = -1;   ///< then it looks again
+    bool aim_in_sight = false;
+    mrpt::math::TPoint2D rested_at;  ///< moved by little from there ...
+    double rested_since_s = -1;      ///< ... since then; negative: not under way
+    StuckPerson longest;
   };
   void addGroup(const PeopleParams& p, size_t group);
   void addTracks();
@@ -95,8 +111,10 @@ class Crowd {
   mrpt::math::TPoint2D wanted(const Walker& w, const Person& p) const;
   void accelerate(size_t i, std::span<const Body> robots, const WallIndex& walls);
   mrpt::math::TPoint2D fromWalls(const Person& p, const WallIndex& walls);
-  void move(Walker& w, Person& p, double dt_s);
-  void arrive(Walker& w, Person& p, double dt_s);
+  void lookAround(Walker& w, const Person& p, double time_s, const WallIndex& walls);
+  void noteRest(Walker& w, const Person& p, double time_s);
+  void move(Walker& w, Person& p, double dt_s, const WallIndex& walls);
+  void arrive(Walker& w, Person& p, double dt_s, const WallIndex& walls);
   void findCentres();
 
   SocialForceParams forces_;
@@ -108,6 +126,7 @@ class Crowd {
   std::vector<double> members_;
   std::vector<uint32_t> near_walls_, present_;  // present_[k]: whom positions_[k] belongs to
   NeighbourGrid grid_;
+  WalkingWays ways_;
   double fastest_ = 0;
 };
 

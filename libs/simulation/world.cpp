@@ -98,6 +98,7 @@ void World::run(const std::function<bool()>& each) {
 const std::vector<RobotState>& World::robots() const { return impl_->physics.robots(); }
 size_t World::robotUnderTest() const { return impl_->under_test; }
 const std::vector<Person>& World::people() const { return impl_->physics.people(); }
+std::vector<StuckPerson> World::stuckPeople() const { return impl_->physics.stuckPeople(); }
 const WallIndex& World::walls() const { return impl_->physics.walls(); }
 const ContactMeter& World::contacts(size_t i) const { return impl_->physics.contacts(i); }
 std::span<const MovingObstacle> World::perceived(size_t i) const { return impl_->perception.of(i); }

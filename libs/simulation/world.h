@@ -51,6 +51,8 @@ class World {
   size_t robotUnderTest() const;
   const RobotState& underTest() const { return robots()[robotUnderTest()]; }
   const std::vector<Person>& people() const;
+  /// Who was under way and did not get on for 10 s or longer, so far.
+  std::vector<StuckPerson> stuckPeople() const;
   const WallIndex& walls() const;
   /// Clearance and contacts of robot `i`.
   const ContactMeter& contacts(size_t i) const;

@@ -27,6 +27,7 @@ class WorldPhysics {
 
   const std::vector<RobotState>& robots() const { return states_; }
   const std::vector<Person>& people() const { return crowd_.people(); }
+  std::vector<StuckPerson> stuckPeople() const { return crowd_.stuck(); }
   const WallIndex& walls() const { return walls_; }
   const ContactMeter& contacts(size_t robot) const { return bases_[robot].meter; }
   /// The robots as people see them.

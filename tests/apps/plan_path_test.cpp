@@ -108,7 +108,7 @@ TEST_F(PlanPath, NearestMovesTheEndsAndSaysSo) {
   EXPECT_EQ(metrics("out")["moved"].size(), 1u);
   const auto out = run("--start 1,1,0 --goal -100,1,0 --nearest --no-picture -o far");
   EXPECT_EQ(out.exit_code, 5);
-  EXPECT_TRUE(out.err.starts_with("sidestep-plan: goal not moved: nothing is free within 5 m (nearest_within_m)\n"))
+  EXPECT_TRUE(out.err.starts_with("sidestep-plan: goal not moved: no way of at most 5 m (nearest_within_m) leads to free space\n"))
       << out.err;
 }
 

@@ -33,6 +33,53 @@ TEST(Simulate, ALocalizationScenarioBecomesAHealthyLogWithTruth) {
   EXPECT_NEAR(jsonOf(folder / "out" / "metrics.json")["path_m"].get<double>(), 16, 1e-9);
 }
 
+TEST(Simulate, TheExampleOfTheGuideIsTheOfficeAndRuns) {
+  const std::string page = readFile(std::filesystem::path(SIDESTEP_SOURCE) / "doc" / "simulation.md");
+  const auto begin = page.find("```yaml\n") + 8, end = page.find("```", begin);
+  const std::string example = page.substr(begin, end - begin);
+  EXPECT_EQ(example, readFile(std::filesystem::path(SIDESTEP_SOURCE) / "share" / "scenarios" / "office.yaml"));
+  const TemporaryFolder folder;
+  writeFile(folder / "office.yaml", example);
+  const auto run = runShell("sidestep-simulate office.yaml --no-picture -o out", folder.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto metrics = jsonOf(folder / "out" / "metrics.json");
+  EXPECT_TRUE(metrics["arrived"].get<bool>());
+  EXPECT_EQ(metrics["contacts"]["robot_into_wall"], 0);
+  EXPECT_TRUE(metrics["stuck_people"].empty()) << metrics["stuck_people"];
+}
+
+TEST(Simulate, AWorldThatCannotBeIsRefusedWithLineAndKeyUnlessForced) {
+  const TemporaryFolder folder;
+  writeFile(folder / "w.yaml",
+            "kind: world\nduration_s: 0.1\nwalls:\n  w: {points: [{x: 2, y: -9}, {x: 2, y: 9}, {x: -2, y: 9}, {x: -2, "
+            "y: -9}], "
+            "closed: true}\nrobots:\n  robot: {goal_x_m: 5}\npeople:\n  bob: {x_m: 0.2, goal_x_m: 1}\n");
+  const auto run = runShell("sidestep-simulate w.yaml --no-picture -o out", folder.path());
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("w.yaml:6: robots.robot.goal_x_m: the goal at (5.00, 0.00) cannot be reached"),
+            std::string::npos)
+      << run.err;
+  EXPECT_NE(run.err.find("w.yaml:8: people.bob.x_m: bob starts at (0.20, 0.00) and overlaps robot robot"),
+            std::string::npos)
+      << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  EXPECT_EQ(runShell("sidestep-simulate w.yaml --no-picture --force -o out", folder.path()).exit_code, 0);
+
+  writeFile(folder / "kind.yaml", "duration_s: 1\nrobots: {robot: {goal_x_m: 5}}\n");
+  const auto kind = runShell("sidestep-simulate kind.yaml -o out2", folder.path());
+  EXPECT_EQ(kind.exit_code, 2);
+  EXPECT_NE(kind.err.find("kind.yaml:2: robots belongs to a world"), std::string::npos) << kind.err;
+  EXPECT_NE(kind.err.find("did you mean 'kind: world'?"), std::string::npos) << kind.err;
+}
+
+TEST(Simulate, PrintsAWorldToBeginWithThatRuns) {
+  const TemporaryFolder folder;
+  const auto printed = runShell("sidestep-simulate --write-config --kind world");
+  ASSERT_EQ(printed.exit_code, 0) << printed.err;
+  writeFile(folder / "w.yaml", printed.out);
+  EXPECT_EQ(runShell("sidestep-simulate w.yaml --no-picture -o out", folder.path()).exit_code, 0);
+}
+
 TEST(Simulate, SnapshotsShowWhatEachPlannerConsiders) {
   const TemporaryFolder folder;
   const std::string out = (folder / "out").string();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/geometry.h"
 #include "evaluation/experiments/world_controllers.h"
 #include "simulation/world.h"
 
@@ -65,7 +66,7 @@ class Listener final : public LocalPlanner {
 };
 
 Situation situationAt(double time_s, const mrpt::math::TPose2D& pose, std::span<const Segment> walls,
-                  std::span<const MovingObstacle> moving) {
+                      std::span<const MovingObstacle> moving) {
   Situation now;
   now.time_s = time_s, now.pose = pose, now.goal = {10, 0, 0};
   now.walls = walls, now.moving = moving, now.period_s = 0.1;
@@ -130,6 +131,57 @@ TEST(LocalNavigator, ARouteLeadsAroundWallsAndThoseWhoStandAndIsPlannedAnewForAn
   navigator.command(other);
   EXPECT_NEAR(told.path.back().y, 4, 1e-9);
   EXPECT_LT(told.path.size(), 12u);
+}
+
+std::vector<mrpt::math::TPose2D> routeThrough(const std::vector<Segment>& walls, const mrpt::math::TPose2D& goal,
+                                              double radius_m = 0.3) {
+  GlobalRouteParams params;
+  params.planner = "astar";
+  Situation now;
+  now.goal = goal;
+  now.walls = walls;
+  return GlobalRoute(params, radius_m).at(now);
+}
+
+double lengthOf(const std::vector<mrpt::math::TPose2D>& path) {
+  double out = 0;
+  for (size_t i = 1; i < path.size(); ++i) out += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+  return out;
+}
+
+TEST(GlobalRoute, StaysInACorridorThatIsNarrowButWideEnough) {
+  for (const double half : {0.35, 0.4, 0.5, 0.6}) {
+    const auto path = routeThrough({{{-1, half}, {9, half}}, {{-1, -half}, {9, -half}}}, {8, 0, 0});
+    ASSERT_FALSE(path.empty()) << half;
+    EXPECT_LT(lengthOf(path), 8.2) << half;
+    for (const auto& p : path) EXPECT_LT(std::abs(p.y), half - 0.3) << half;
+  }
+  // 0.58 m wide, for a robot of 0.6 m, and closed behind it: no way at all
+  EXPECT_TRUE(
+      routeThrough({{{9, 0.29}, {-1, 0.29}}, {{-1, 0.29}, {-1, -0.29}}, {{-1, -0.29}, {9, -0.29}}}, {8, 0, 0}).empty());
+}
+
+TEST(GlobalRoute, AGoalBesideAWallIsJoinedFromItsOwnSide) {
+  // a wall along y = 0.5 from x = -10 to 10; the goal lies 0.1 m above it, less than the robot's radius
+  const std::vector<Segment> walls = {{{-10, 0.5}, {10, 0.5}}};
+  const auto path = routeThrough(walls, {3, 0.6, 0});
+  ASSERT_FALSE(path.empty());
+  EXPECT_GT(lengthOf(path), 17) << "around an end of the wall, 10 m there and 7 m back";
+  for (size_t i = 1; i < path.size(); ++i)
+    EXPECT_FALSE(intersect({{path[i - 1].x, path[i - 1].y}, {path[i].x, path[i].y}}, walls[0])) << i;
+  EXPECT_NEAR(path.back().x, 3, 1e-9);
+  EXPECT_NEAR(path.back().y, 0.6, 1e-9);
+}
+
+TEST(GlobalRoute, ATightDoorCostsNoRoomElsewhere) {
+  // two rooms, a door of 0.8 m; the corner of a block is on the way to it
+  const std::vector<Segment> walls = {{{-2, -4}, {10, -4}}, {{10, -4}, {10, 4}}, {{10, 4}, {-2, 4}},
+                                      {{-2, 4}, {-2, -4}},  {{4, 0.4}, {4, 4}},  {{4, -0.4}, {4, -4}},
+                                      {{2, -4}, {2, -0.2}}};
+  const auto path = routeThrough(walls, {8, 0, 0});
+  ASSERT_FALSE(path.empty());
+  EXPECT_GT(clearanceOf(path, {2, -0.2}), 0.5) << "0.3 m of robot and room beside it";
+  EXPECT_LT(lengthOf(path), 9);
 }
 
 TEST(LocalNavigator, WithoutWallsThereIsNoPath) {

@@ -105,6 +105,57 @@ TEST(Crowd, WallsAreNotCrossed) {
   }
 }
 
+/// Two rooms and a door of 1 m in the wall x = 6, from y = 2.5 to 3.5.
+WallIndex twoRooms() {
+  return WallIndex({{{0, 0}, {12, 0}},
+                    {{12, 0}, {12, 6}},
+                    {{12, 6}, {0, 6}},
+                    {{0, 6}, {0, 0}},
+                    {{6, 0}, {6, 2.5}},
+                    {{6, 3.5}, {6, 6}}});
+}
+
+TEST(Crowd, PeopleFindTheDoorToAGoalInTheOtherRoom) {
+  const WallIndex walls = twoRooms();
+  for (uint64_t seed = 1; seed <= 10; ++seed)
+    for (const bool told : {false, true}) {
+      PeopleParams p = walker(3, 4.5, 10, 1);
+      if (told) p.waypoints = {{6, 3}};  // in the door itself
+      Crowd crowd({p}, {}, {}, Random(seed));
+      walk(crowd, 30, walls);
+      // it has arrived 0.33 m before the goal, and coasts on by 1.34 m/s times 0.5 s
+      EXPECT_LT((crowd.people()[0].position - TPoint2D(10, 1)).norm(), 1) << seed << (told ? " told" : "");
+      EXPECT_TRUE(crowd.stuck().empty());
+    }
+}
+
+TEST(Crowd, AWaypointBehindAWallIsNotReachedThroughIt) {
+  // the waypoint lies 0.15 m behind the wall; only round its end at x = 4 can it be reached
+  const WallIndex walls({{{-20, 1}, {4, 1}}});
+  PeopleParams p = walker(0, 0.8, 0, -5);
+  p.waypoints = {{0, 1.15}};
+  Crowd crowd({p}, {}, calm(), Random(1));
+  double farthest = 0;
+  for (int k = 1; k <= 2000; ++k) {
+    crowd.step(k * 0.01, 0.01, {}, walls);
+    farthest = std::max(farthest, crowd.people()[0].position.x);
+  }
+  EXPECT_GT(farthest, 4);
+}
+
+TEST(Crowd, WhoGetsNowhereForTenSecondsIsTold) {
+  const WallIndex room({{{-2, -2}, {2, -2}}, {{2, -2}, {2, 2}}, {{2, 2}, {-2, 2}}, {{-2, 2}, {-2, -2}}});
+  Crowd crowd({walker(0, 0, 50, 0), walker(0, 1, 0, 1)}, {}, calm(), Random(2));
+  walk(crowd, 9, room);
+  EXPECT_TRUE(crowd.stuck().empty());
+  for (int k = 901; k <= 3000; ++k) crowd.step(k * 0.01, 0.01, {}, room);
+  const auto stuck = crowd.stuck();
+  ASSERT_EQ(stuck.size(), 1u) << "who stands at a goal is not stuck";
+  EXPECT_EQ(stuck[0].id, 0);
+  EXPECT_GT(stuck[0].position.x, 1);
+  EXPECT_GT(stuck[0].for_s, 25);
+}
+
 TEST(Crowd, AGroupStaysTogetherAndStrangersDoNot) {
   const auto spread = [](bool group) {
     PeopleParams p = walker(0, 0, 60, 0);

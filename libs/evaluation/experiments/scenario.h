@@ -17,11 +17,16 @@ struct Scenario {
 
   /// @throws ConfigError, DatasetError as readYaml.
   static Scenario read(const std::string& file);
+  /// One of that kind to begin with: of a world a room, a robot and somebody who walks.
+  static Scenario exampleOf(const std::string& kind);
   /// Shows what belongs to `kind`.
   void visit(ParamVisitor& v);
   /// @throws ConfigError for what the ranges of single parameters do not catch.
   void check() const;
 };
+
+/// The text of a file, "" if it cannot be read.
+std::string textOf(const std::string& file);
 
 /// Reads a scenario that must be a world.
 /// @throws ConfigError as Scenario::read, or if it is of another kind.

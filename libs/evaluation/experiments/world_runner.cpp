@@ -12,6 +12,7 @@
 #include "core/overlay_yaml.h"
 #include "core/random.h"
 #include "evaluation/experiments/scenario.h"
+#include "evaluation/experiments/world_check.h"
 #include "evaluation/experiments/world_controllers.h"
 #include "evaluation/experiments/world_record.h"
 #include "evaluation/experiments/world_scenario.h"
@@ -25,6 +26,7 @@ namespace {
 
 struct ScenarioEntry {
   std::string file, set, goals = "all";
+  bool unchecked = false;
   // made by prepare()
   std::vector<WorldScenario> worlds;                       ///< by algorithm
   std::vector<std::shared_ptr<const WorldInputs>> inputs;  ///< by algorithm
@@ -111,6 +113,8 @@ class WorldRunner final : public StudyRunner {
  private:
   WorldScenario load(ScenarioEntry& s, const std::string& where) const;
   std::shared_ptr<const WorldInputs> inputsOf(const WorldParams& p, bool load_data);
+  void checkRunnable(const WorldParams& world, const WorldInputs& inputs, const std::string& scenario,
+                     const std::string& algorithm) const;
 
   std::string file_;
   std::vector<ScenarioEntry> scenarios_;
@@ -150,6 +154,16 @@ std::shared_ptr<const WorldInputs> WorldRunner::inputsOf(const WorldParams& p, b
   return known;
 }
 
+/// @throws ConfigError with all that overlaps or cannot be reached.
+void WorldRunner::checkRunnable(const WorldParams& world, const WorldInputs& inputs, const std::string& scenario,
+                                const std::string& algorithm) const {
+  const auto problems = findProblems(world, inputs.walls);
+  if (problems.empty()) return;
+  std::string text = file_ + ": scenarios." + scenario + " with algorithms." + algorithm + ":";
+  for (const auto& p : problems) text += "\n  " + p.key + ": " + p.what;
+  throw ConfigError(text + "\n(unchecked: true in the scenario's entry runs it anyway)");
+}
+
 /// @param where  for the message
 void check(const WorldScenario& world, const std::string& where) {
   try {
@@ -171,6 +185,8 @@ void WorldRunner::prepare(const std::vector<std::string>& scenarios, const std::
       algorithms_[a].apply(world, file_);
       check(world, file_ + ": algorithms." + algorithms[a]);
       s.inputs.push_back(inputsOf(world.world, load_data));
+      if (load_data && !s.unchecked && (a == 0 || !isBlank(algorithms_[a].set)))
+        checkRunnable(world.world, *s.inputs.back(), scenarios[i], algorithms[a]);
       s.worlds.push_back(std::move(world));
     }
   }

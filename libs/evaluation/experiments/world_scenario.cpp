@@ -8,6 +8,7 @@
 #include "core/data_path.h"
 #include "core/errors.h"
 #include "datasets/track_file.h"
+#include "evaluation/experiments/world_check.h"
 #include "evaluation/experiments/world_controllers.h"
 #include "maps/map_file.h"
 #include "simulation/map_walls.h"
@@ -30,6 +31,7 @@ void WorldScenario::visit(ParamVisitor& v) {
 }
 
 void WorldScenario::layOver(const std::string& yaml, const std::string& name) {
+  checkNewNames(yaml, name, world);
   const auto walls = world.wall_names, robots = world.robot_names, people = world.people_names;
   readYamlText(yaml, name, [this](ParamVisitor& v) { visit(v); });
   world.wall_names = joinedNames(walls, world.wall_names);

@@ -64,8 +64,8 @@ ConsistencyBand nisBand(double n, int dof, double gate_probability) {
   return {mean, mean - half, mean + half};
 }
 
-ConsistencyBand neesBand(double effective, int dof) {
-  const double spread = 2 / (9 * effective * dof);
+ConsistencyBand neesBand(double n_eff, int dof) {
+  const double spread = 2 / (9 * n_eff * dof);
   const auto quantile = [&](double normal) {
     return dof * std::pow(std::max(0.0, 1 - spread + normal * std::sqrt(spread)), 3);
   };
@@ -76,12 +76,12 @@ Consistency judgeNis(double mean_nis, double n, int dof, double gate_probability
   return judged(mean_nis, nisBand(n, dof, gate_probability), factorOf(mean_nis, dof, gate_probability));
 }
 
-Consistency judgeSensor(double mean_nis, double count, double independent, int dof, double gate_probability) {
-  return judgeNis(mean_nis, independent, dof, independent < 0.999 * count ? 1 : gate_probability);
+Consistency judgeSensor(double mean_nis, double count, double n_eff, int dof, double gate_probability) {
+  return judgeNis(mean_nis, n_eff, dof, n_eff < 0.999 * count ? 1 : gate_probability);
 }
 
-Consistency judgeNees(double mean_nees, double effective, int dof) {
-  return judged(mean_nees, neesBand(effective, dof), std::sqrt(mean_nees / dof));
+Consistency judgeNees(double mean_nees, double n_eff, int dof) {
+  return judged(mean_nees, neesBand(n_eff, dof), std::sqrt(mean_nees / dof));
 }
 
 std::string consistencyLine(const std::string& label, const std::string& measure, double mean, const Consistency& c) {

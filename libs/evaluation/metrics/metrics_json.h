@@ -19,7 +19,7 @@ struct SensorCounts {
   std::optional<double> mean_nis;           ///< consistent if close to nis_dof
   int nis_dof = 0;
   std::optional<Consistency> consistency;  ///< nothing for few measurements, or a filter without NIS
-  double nis_independent = 0;              ///< how many measurements the mean is worth (SensorUse)
+  double nis_independent = 0;              ///< effective sample size of the mean (SensorUse)
 };
 
 /// All that metrics.json says about a run.

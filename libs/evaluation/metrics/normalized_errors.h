@@ -11,13 +11,13 @@ namespace sidestep {
 /// Errors of a trajectory measured by the covariance that the filter believed in: z = P^-1/2 e, NEES = |z|^2.
 ///
 /// Of a consistent filter NEES is chi-square with as many degrees of freedom as the error has components. Neighbouring
-/// errors are alike, so that the mean of n of them is worth fewer independent ones:
+/// errors are correlated, so that the effective sample size of n of them is less than n:
 ///
 ///   n_eff = n / tau,   tau = 1 + 2 sum over lags l of rho(l)^2,   rho(l)^2 = |C(l)|^2 / |C(0)|^2
 ///
 /// with C(l) the sample mean of z_t z_{t+l}' and |.| Frobenius' norm: the correlation of squares of Gaussians is the
 /// square of theirs. The mean of z is known to be zero and is not estimated, which keeps short samples honest: an error
-/// that stays the same through the whole run is worth one or two samples. The sum ends at the first lag of 3 tau
+/// that stays the same through the whole run has n_eff of one or two. The sum ends at the first lag of 3 tau
 /// (Sokal).
 class NormalizedErrors {
  public:
@@ -37,7 +37,7 @@ class NormalizedErrors {
   uint64_t count() const { return count_; }
   int dof() const { return dof_; }
   std::optional<double> meanNees() const;
-  /// How many independent samples the mean is worth; at most as many as were kept.
+  /// Effective sample size n_eff; at most as many as were kept.
   double effectiveCount() const;
   const std::vector<Sample>& kept() const { return kept_; }
 

@@ -20,14 +20,6 @@ double meanOf(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Linear between the order statistics around (n - 1) q.
-double quantile(const std::vector<double>& sorted, double q) {
-  const double at = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<size_t>(at);
-  if (below + 1 >= sorted.size()) return sorted.back();
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
-}
-
 double exactPValue(std::span<const double> d, double limit) {
   const size_t patterns = size_t{1} << d.size();
   size_t hits = 0;
@@ -55,6 +47,13 @@ double drawnPValue(std::span<const double> d, double limit, Random& random) {
 }
 
 }  // namespace
+
+double quantile(std::span<const double> sorted, double q) {
+  const double at = q * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<size_t>(at);
+  if (below + 1 >= sorted.size()) return sorted.back();
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
+}
 
 SampleSummary summarize(std::span<const double> values, Random& random) {
   SampleSummary s;

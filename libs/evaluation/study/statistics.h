@@ -21,6 +21,9 @@ struct SampleSummary {
 /// samples drawn with replacement. For small n it is too narrow by about sqrt((n - 1) / n). Values must be finite.
 SampleSummary summarize(std::span<const double> values, Random& random);
 
+/// Linear between the order statistics around (n - 1) q; there must be at least one.
+double quantile(std::span<const double> sorted, double q);
+
 /// Two-sided p-value of "the mean of the paired differences is zero", by flipping signs (Fisher 1935): the share of
 /// sign patterns whose mean is at least as far from zero as the one seen. All 2^n patterns are counted for n <= 12;
 /// beyond, 9999 are drawn, and (1 + hits) / 10000 is given, so that 0.0001 is the smallest. NaN if n = 0; 1 if all are

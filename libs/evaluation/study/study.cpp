@@ -173,7 +173,9 @@ void Study::prepare(bool load_data) {
   runner_->prepare(names, axes, algorithms_, load_data);
 }
 
-std::vector<std::string> Study::reportedMetrics() const { return metrics.empty() ? namesOf(runner_->metrics()) : metrics; }
+std::vector<std::string> Study::reportedMetrics() const {
+  return metrics.empty() ? namesOf(runner_->metrics()) : metrics;
+}
 
 StudyPlace Study::place(size_t row, size_t algorithm, size_t run) const {
   const StudyRow& r = rows_[row];

@@ -20,7 +20,7 @@ struct CellConsistency {
 };
 
 /// For each metric NAME that has a NAME_in_band beside it. Runs are independent of each other, so that the interval
-/// over them does not mind how much errors within a run are alike. Of fewer than 5 runs there is no verdict.
+/// over them holds however correlated errors within a run are. Of fewer than 5 runs there is no verdict.
 std::vector<CellConsistency> consistencyOf(const std::vector<SummaryLine>& lines);
 
 /// The text of consistency.csv.

@@ -9,13 +9,6 @@
 namespace sidestep {
 namespace {
 
-double quantile(const std::vector<double>& sorted, double q) {
-  const double at = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<size_t>(at);
-  if (below + 1 >= sorted.size()) return sorted.back();
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
-}
-
 /// The largest k >= 1 with P(binomial(n, 1/2) < k) <= 0.025, else 1.
 size_t medianRank(size_t n) {
   double sum = 0, log_term = -static_cast<double>(n) * std::log(2.0);

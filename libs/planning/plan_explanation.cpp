@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation/experiments/plan_explanation.h"
+#include "planning/plan_explanation.h"
 
 #include <algorithm>
 #include <cmath>
