@@ -47,7 +47,6 @@ LocalizeConfig effectiveConfig(const LocalizeOptions& o) {
   if (o.seed) c.seed = *o.seed;
   if (!o.map.empty()) c.map = o.map;
   if (!o.sensors.empty()) c.sensors = split(o.sensors);
-  if (c.filter == "odometry") c.sensors = {"odometry"};
   if (!o.initial_pose.empty()) setInitialPose(o.initial_pose, c.robot.start);
   c.check(o.sensors.empty() ? o.config_file + ": sensors" : "--sensors");
   return c;

@@ -12,7 +12,9 @@
 #include <map>
 
 #include "common/program.h"
+#include "datasets/kind_rules.h"
 #include "datasets/log_reader.h"
+#include "evaluation/metrics/alignment.h"
 #include "evaluation/metrics/metrics_json.h"
 #include "evaluation/metrics/side_files.h"
 #include "evaluation/metrics/truth_comparison.h"
@@ -67,12 +69,10 @@ class Run {
         config_(config),
         folder_(options.output, options.overwrite),
         reader_(options.log, readerOptions(options, config)),
-        localizer_(config.robot, makeFilter(config, static_cast<uint64_t>(config.seed)), config.expectation()),
-        feed_(config, localizer_),
+        localizer_(makeLocalizer(config, static_cast<uint64_t>(config.seed))),
         truth_(options.ground_truth, config),
         log_(folder_.file("estimate.rawlog"), commandLine()),
         tum_(folder_.file("trajectory.tum")) {
-    if (config.smooth) localizer_.smoothAtEnd();
     localizer_.recordMore(kModesPeriod_s);
   }
 
@@ -92,19 +92,16 @@ class Run {
   void record(const Reading& e);
   void take();
   void tell(const Estimate& e);
-  Alignment alignment() const;
   LocalizationMetrics metrics() const;
   void draw(const LocalizationMetrics& m) const;
   void checkSensors();
   void warn(const std::string& line);
-  bool used(const std::string& sensor) const;
 
   const LocalizeOptions& options_;
   const LocalizeConfig& config_;
   OutputFolder folder_;
   LogReader reader_;
   Localizer localizer_;
-  LocalizationFeed feed_;
   TruthComparison truth_;
   OrderedLog log_;
   TumWriter tum_;
@@ -167,7 +164,7 @@ void Run::read(LogReader& reader, const char* what, const std::function<void(con
 void Run::filter() {
   read(reader_, "localizing", [this](const Reading& e) {
     record(e);
-    feed_.feed(e);
+    localizer_.observe(e);
     take();
   });
   localizer_.finish();
@@ -177,7 +174,7 @@ void Run::filter() {
 /// The log is read twice: once for the estimates, which wait for its end, once to write it with them.
 void Run::smooth() {
   read(reader_, "localizing", [this](const Reading& e) {
-    feed_.feed(e);
+    localizer_.observe(e);
     innovations_.take(localizer_);
   });
   localizer_.finish();
@@ -193,30 +190,12 @@ void Run::smooth() {
     for (; next != estimates.end(); ++next) tell(*next);
 }
 
-bool Run::used(const std::string& sensor) const {
-  for (const auto& s : localizer_.sensors())
-    if (word(feed_.kinds().at(s.label)) == sensor && s.used > 0) return true;
-  return false;
-}
-
-/// Where estimate and truth are in one known frame nothing may be moved; else the filter is judged by shape.
-Alignment Run::alignment() const {
-  if (config_.align == "none") return Alignment::kNone;
-  if (config_.align == "first") return Alignment::kFirstPose;
-  if (config_.align == "se2") return Alignment::kLeastSquares;
-  if (used("laser")) return Alignment::kNone;  // the map's frame
-  const bool gps = used("gps"), beacons = used("beacons");
-  if (!gps && !beacons) return Alignment::kFirstPose;
-  const bool known = (gps && config_.robot.gps.datum_given) || (beacons && config_.truth_frame_given);
-  return known ? Alignment::kNone : Alignment::kLeastSquares;
-}
-
 LocalizationMetrics Run::metrics() const {
   LocalizationMetrics m;
   m.duration_s = last_s_ - first_s_;
   m.wall_s = steadySeconds() - begin_s_;
   m.peak_memory_mb = peakMemoryMb();
-  m.estimate = truth_.estimateErrors(alignment());
+  m.estimate = truth_.estimateErrors(alignmentFor(config_, localizer_.sensors()));
   m.odometry = truth_.odometryErrors();
   m.truth_source = options_.ground_truth.empty() ? (m.estimate ? "log" : "none") : options_.ground_truth;
   for (const auto& s : localizer_.sensors()) {
@@ -257,14 +236,10 @@ void Run::draw(const LocalizationMetrics& m) const {
 }
 
 void Run::checkSensors() {
-  std::string labels;
-  for (const auto& [label, kind] : feed_.kinds()) labels += (labels.empty() ? "" : ", ") + label;
-  const std::string hint =
-      " (used: " + (labels.empty() ? std::string("nothing") : labels) + "); see sidestep-rawlog info, and --label";
-  if (estimates_ == 0) throw DatasetError::missing(options_.log + ": no odometry to localize with" + hint);
-  for (const auto& sensor : config_.sensors)
-    if (!used(sensor))
-      throw DatasetError::missing(options_.log + ": nothing of sensor '" + sensor + "' was usable" + hint);
+  if (estimates_ == 0)
+    throw DatasetError::missing(options_.log + ": no odometry to localize with (used: " +
+                                usedLabels(localizer_.sensors()) + "); see sidestep-rawlog info, and --label");
+  requireSensors(config_, localizer_.sensors(), options_.log);
 }
 
 ExitCode Run::go() {

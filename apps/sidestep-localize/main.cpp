@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/program.h"
+#include "localization/sensors/sensors.h"
 #include "sidestep-localize/localize_run.h"
 
 int main(int argc, char** argv) {
@@ -12,12 +13,9 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", o.output, "output folder")->type_name("DIR")->capture_default_str();
   app.add_flag("-w,--overwrite", o.overwrite, "write into a folder that holds something");
   app.add_flag("-q,--quiet", o.quiet, "no progress bar");
-  app.add_option("--filter", o.filter, "the estimator")
-      ->check(CLI::IsMember({"ekf", "pf", "mcl", "odometry"}))
-      ->type_name("NAME");
+  app.add_option("--filter", o.filter, "the estimator")->check(CLI::IsMember(filterNames()))->type_name("NAME");
   app.add_flag("--smooth", o.smooth, "estimates by the whole log, not only by what came before (ekf)");
-  app.add_option("--sensors", o.sensors, "of odometry,imu,gps,beacons,laser; default: those the log has")
-      ->type_name("LIST");
+  app.add_option("--sensors", o.sensors, "of " + sensorWords(",") + "; default: those the log has")->type_name("LIST");
   app.add_option("--map", o.map, "where the robot is, for mcl: ROS yaml, .gridmap, .simplemap, image")
       ->type_name("FILE");
   app.add_option("--initial-pose", o.initial_pose, "where the robot starts")->type_name("x,y,deg");

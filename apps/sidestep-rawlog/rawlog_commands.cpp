@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "common/program.h"
+#include "datasets/kind_rules.h"
 #include "datasets/log_degrader.h"
 #include "datasets/log_writer.h"
-#include "localization/configuration.h"
 #include "sidestep-rawlog/rawlog_report.h"
 
 namespace sidestep {

@@ -78,4 +78,24 @@ bool KindRules::serves(SensorKind kind, const std::string& label) {
   return chosen_.try_emplace(kind, label).first->second == label;
 }
 
+std::map<std::string, std::string> labelMap(const std::vector<std::string>& words) {
+  std::vector<std::string> kinds = kindWords();
+  kinds.pop_back();  // other
+  std::map<std::string, std::string> out;
+  for (const auto& w : words) {
+    const auto eq = w.find('=');
+    if (eq == std::string::npos || eq + 1 == w.size())
+      throw ConfigError("--label " + w + ": write it as kind=label, for example gps=GPS_RTK_REAR");
+    const auto kind = w.substr(0, eq);
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+      const auto near = nearestWord(kind, kinds);
+      throw ConfigError("--label " + w + ": '" + kind + "' is no kind of sensor" +
+                        (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    }
+    if (!out.emplace(kind, w.substr(eq + 1)).second)
+      throw ConfigError("--label " + w + ": " + kind + " is given twice");
+  }
+  return out;
+}
+
 }  // namespace sidestep

@@ -27,4 +27,7 @@ class KindRules {
   std::map<SensorKind, std::string> chosen_;  ///< at first sight
 };
 
+/// "kind=label" words, as a command line gives them, by kind. @throws ConfigError
+std::map<std::string, std::string> labelMap(const std::vector<std::string>& words);
+
 }  // namespace sidestep

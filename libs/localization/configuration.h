@@ -1,17 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/params.h"
-#include "core/reading.h"
-#include "localization/ekf.h"
+#include "localization/filters/filters.h"
 #include "localization/localizer.h"
-#include "localization/mcl.h"
-#include "localization/particle_filter.h"
 #include "maps/map_file.h"
 
 namespace sidestep {
@@ -21,11 +18,9 @@ struct LocalizeConfig {
   std::string filter = "ekf";
   bool smooth = false;
   int seed = 1;
-  std::vector<std::string> sensors;  // empty: whatever the log has of odometry, imu, gps, and beacons if known
+  std::vector<std::string> sensors;  // empty: whatever the log has of those that the configuration knows
   LocalizerParams robot;
-  EkfParams ekf;
-  PfParams pf;
-  MclParams mcl;
+  ParamSections filters = filterParams();
   std::string map;
   MapReadParams map_read;
   std::string align = "auto";
@@ -33,41 +28,37 @@ struct LocalizeConfig {
   bool truth_frame_given = false;
 
   void visit(ParamVisitor& v);
-  bool uses(const std::string& sensor) const;
-  /// Fixes tell where the robot starts; a filter with a map need not wait for them unless they are asked for by name.
-  bool expectsFixes() const { return uses("gps") && (filter != "mcl" || !sensors.empty()); }
-  /// What its sensors can tell of the start.
-  Expectation expectation() const;
+  /// The row of the filter that is named. @throws ConfigError for a name that is none
+  const FilterRow& row() const { return filterOf(filter); }
+  /// Whether readings of that kind reach the filter, if there are any.
+  bool uses(SensorKind kind) const;
+  /// Those kinds, in the order of the table.
+  std::vector<SensorKind> usedKinds() const;
+  /// What the localizer is to be told.
+  LocalizerSetup setup() const;
   /// Share of good measurements that the filter's gate lets in, 1 without a gate; nothing where there is no NIS to
   /// judge.
   std::optional<double> gateProbability() const;
+  /// A true pose in the map's frame, as the configuration places the truth's.
+  mrpt::math::TPose2D truthInMap(const mrpt::math::TPose2D& truth) const;
   /// @param where  what named the sensors, for the message
   /// @throws ConfigError for a sensor that is none, wheels without sizes, beacons that are used but not known.
   void check(const std::string& where) const;
 };
 
-/// The filter that the configuration names. @param seed  of what it draws
-std::unique_ptr<PoseFilter> makeFilter(const LocalizeConfig& config, uint64_t seed);
+/// The localizer that the configuration describes. @param seed  of what its filter draws
+/// @throws DatasetError, ConfigError if its map cannot be read
+Localizer makeLocalizer(const LocalizeConfig& config, uint64_t seed);
 
-/// Carries observations of a log to the localizer's doors.
-class LocalizationFeed {
- public:
-  LocalizationFeed(const LocalizeConfig& config, Localizer& localizer) : config_(config), localizer_(localizer) {}
-  /// Observations of sensors that are not used are left out.
-  void feed(const Reading& e);
-  /// Kinds by the labels that were fed.
-  const std::map<std::string, SensorKind>& kinds() const { return kinds_; }
+/// Whether measurements of that kind were used.
+bool wasUsed(const std::vector<SensorUse>& sensors, SensorKind kind);
 
- private:
-  int streamOf(const Reading& e);
+/// Every sensor that was asked for by name must have been of use.
+/// @param log  for the message
+/// @throws DatasetError (missing) naming the first that was not, and what was.
+void requireSensors(const LocalizeConfig& config, const std::vector<SensorUse>& sensors, const std::string& log);
 
-  const LocalizeConfig& config_;
-  Localizer& localizer_;
-  std::map<std::string, int> streams_;
-  std::map<std::string, SensorKind> kinds_;
-};
-
-/// "kind=label" words as a map. @throws ConfigError
-std::map<std::string, std::string> labelMap(const std::vector<std::string>& words);
+/// "odometry, gps": the labels that were used, or "nothing".
+std::string usedLabels(const std::vector<SensorUse>& sensors);
 
 }  // namespace sidestep

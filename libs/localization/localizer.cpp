@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "localization/sensors/imu.h"
+#include "localization/sensors/odometry.h"
+
 namespace sidestep {
 void LocalizerParams::visit(ParamVisitor& v) {
   v.number("late_window_s", late_window_s, {0, 60}, "s", "measurements up to this late are put where they belong");
@@ -15,25 +18,24 @@ void LocalizerParams::visit(ParamVisitor& v) {
   v.number("coast_turn_accel", coast_turn_accel, {0, 100}, "rad/s^2", "turning acceleration that it must allow for");
   v.flag("zero_velocity", zero_velocity, "wheels at rest mean that the robot stands, and that the gyro shows its bias");
   v.section("start", "where the robot starts", [this](ParamVisitor& w) { start.visit(w); });
-  v.section("odometry", "wheels", [this](ParamVisitor& w) { odometry.visit(w); });
-  v.section("imu", "inertial unit", [this](ParamVisitor& w) { imu.visit(w); });
-  v.section("gps", "satellite positioning", [this](ParamVisitor& w) { gps.visit(w); });
-  v.section("beacons", "ranges to known beacons", [this](ParamVisitor& w) { beacons.visit(w); });
-  v.section("laser", "laser scans, for mcl", [this](ParamVisitor& w) { laser.visit(w); });
+  sensors.visit(v);
 }
 
-Localizer::Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, const Expectation& expect)
+Localizer::Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, const LocalizerSetup& setup)
     : params_(params),
       filter_(std::move(filter)),
-      motion_(params.odometry, params.imu, params.zero_velocity),
-      gps_(params.gps),
-      start_(params.start, expect.positions, expect.heading, expect.heading_offset_sd) {}
-
-int Localizer::addStream(const std::string& label) {
-  sensors_.push_back({});
-  sensors_.back().label = label;
-  return static_cast<int>(sensors_.size()) - 1;
+      motion_(params.of<OdometryParams>(), params.of<ImuParams>(), params.zero_velocity),
+      setup_(setup),
+      start_(params.start, setup.start.positions, setup.start.heading, setup.start.heading_offset_sd) {
+  for (const auto& row : sidestep::sensors()) {
+    const auto& used = setup.sensors;
+    if (used.empty() || std::find(used.begin(), used.end(), row.kind) != used.end())
+      models_[row.kind] = row.make(params.sensors);
+  }
 }
+
+Localizer::~Localizer() = default;
+Localizer::Localizer(Localizer&&) noexcept = default;
 
 void Localizer::refuse(int stream, const char* reason) { ++use(stream).refused[reason]; }
 
@@ -54,17 +56,17 @@ void Localizer::add(const Measurement& m) {
 }
 
 void Localizer::place(const Measurement& m) {
-  if (m.time_s <= now_s_) return insertLate(m);
+  if (m.time_s <= now_s_) return insertOutOfSequence(m);
   pending_.insert(std::upper_bound(pending_.begin(), pending_.end(), m,
                                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; }),
                   m);
   if (m.time_s > now_s_ + params_.coast_after_s) {
     coastTo(m.time_s);
-    owe(std::nullopt);
+    scheduleEstimate(std::nullopt);
   }
 }
 
-void Localizer::insertLate(const Measurement& m) {
+void Localizer::insertOutOfSequence(const Measurement& m) {
   if (m.time_s < base_time_s_)
     return refuse(m.stream, m.time_s < now_s_ - params_.late_window_s ? "too_late" : "before_start");
   size_t i = history_.size();
@@ -89,7 +91,7 @@ void Localizer::insertLate(const Measurement& m) {
 }
 
 void Localizer::advanceTo(double time_s, const MotionStep& step) {
-  giveOut();
+  emitEstimate();
   MotionStep rest = step;
   while (!pending_.empty() && pending_.front().time_s <= time_s) {
     const Measurement m = pending_.front();
@@ -156,7 +158,7 @@ void Localizer::count(Event& event, const Correction& c) {
       ++u.nis_count;
       // Squares of errors that are alike over tau are alike over tau / 2: of n in a time T, T / tau count; raised is 2
       // tau n / T.
-      u.nis_independent += std::min(1.0, 2 / event.measurement.raised);
+      u.nis_independent += std::min(1.0, 2 / event.measurement.covariance_inflation);
     }
   }
   if (c.accepted())
@@ -178,15 +180,15 @@ void Localizer::coastTo(double time_s) {
   last_motion_ = before;
 }
 
-void Localizer::owe(std::optional<uint64_t> odometry_index) {
-  owed_ = true;
-  owed_index_ = odometry_index;
+void Localizer::scheduleEstimate(std::optional<uint64_t> odometry_index) {
+  scheduled_ = true;
+  scheduled_index_ = odometry_index;
 }
 
-void Localizer::giveOut() {
-  if (!owed_) return;
-  owed_ = false;
-  ready_.push_back({now_s_, filter_->estimate(), odometry_pose_, owed_index_, filter_->lostProbability(), {}});
+void Localizer::emitEstimate() {
+  if (!scheduled_) return;
+  scheduled_ = false;
+  ready_.push_back({now_s_, filter_->estimate(), odometry_pose_, scheduled_index_, filter_->lostProbability(), {}});
   if (modes_period_s_ > 0 && now_s_ >= next_modes_s_) {
     ready_.back().modes = filter_->modes();
     next_modes_s_ = now_s_ + modes_period_s_;
@@ -195,7 +197,7 @@ void Localizer::giveOut() {
 
 void Localizer::trimHistory() {
   while (history_.size() > 1 && history_.front().time_s < now_s_ - params_.late_window_s) {
-    tell(history_.front());
+    feedSmoother(history_.front());
     base_time_s_ = history_.front().time_s;
     std::swap(base_state_, history_.front().state_after);
     spare_states_.push_back(std::move(history_.front().state_after));
@@ -203,7 +205,7 @@ void Localizer::trimHistory() {
   }
 }
 
-void Localizer::tell(const Event& e) {
+void Localizer::feedSmoother(const Event& e) {
   if (!smoother_) return;
   if (e.is_motion)
     smoother_->motion(e.time_s, e.motion, e.state_after);
@@ -213,7 +215,7 @@ void Localizer::tell(const Event& e) {
 
 void Localizer::smooth() {
   std::vector<double> times_s;
-  for (const auto& e : history_) tell(e);
+  for (const auto& e : history_) feedSmoother(e);
   for (const auto& e : ready_) times_s.push_back(e.time_s);
   const auto beliefs = smoother_->beliefs(*filter_, times_s);
   for (size_t i = 0; i < ready_.size(); ++i) ready_[i].belief = beliefs[i];
@@ -235,16 +237,16 @@ void Localizer::start(const StartBelief& s) {
   if (smoother_) smoother_->start(now_s_, base_state_);
   odometry_pose_ = s.belief.mean;
   const bool with_odometry = odometry_count_ > 0 && first_odometry_s_ == now_s_;
-  owe(with_odometry ? std::optional<uint64_t>(0) : std::nullopt);
+  scheduleEstimate(with_odometry ? std::optional<uint64_t>(0) : std::nullopt);
   for (const auto& [step, index] : waiting_) {
     if (step.from_s > now_s_ + 1e-9) {
       coastTo(step.from_s);
-      owe(index - 1);
+      scheduleEstimate(index - 1);
     }
-    giveOut();
+    emitEstimate();
     odometry_pose_ = odometry_pose_ + step.T_from_to;
     advanceTo(step.to_s, step.motion);
-    owe(index);
+    scheduleEstimate(index);
   }
   waiting_.clear();
   const auto rest = std::move(pending_);
@@ -253,13 +255,14 @@ void Localizer::start(const StartBelief& s) {
 }
 
 void Localizer::finish() {
+  completeInstant();
   tryStart(true);
   if (!started_) return;
   if (!pending_.empty()) {
     coastTo(pending_.back().time_s);
-    owe(std::nullopt);
+    scheduleEstimate(std::nullopt);
   }
-  giveOut();
+  emitEstimate();
   if (smoother_) smooth();
 }
 

@@ -13,8 +13,7 @@
 
 #include "localization/motion_source.h"
 #include "localization/pose_filter.h"
-#include "localization/scan.h"
-#include "localization/sensor_models.h"
+#include "localization/sensors/sensors.h"
 #include "localization/smoother.h"
 #include "localization/start_alignment.h"
 
@@ -22,11 +21,7 @@ namespace sidestep {
 
 /// Everything that turns a robot's sensors into a pose, apart from the filter.
 struct LocalizerParams {
-  OdometryParams odometry;
-  ImuParams imu;
-  GpsParams gps;
-  BeaconParams beacons;
-  ScanParams laser;
+  ParamSections sensors = sensorParams();
   StartParams start;
   double late_window_s = 2;
   double coast_after_s = 1;
@@ -35,6 +30,15 @@ struct LocalizerParams {
   bool zero_velocity = true;
 
   void visit(ParamVisitor& v);
+  /// Parameters of one sensor, for example `of<GpsParams>()`.
+  template <class Params>
+  Params& of() {
+    return sensors.of<Params>();
+  }
+  template <class Params>
+  const Params& of() const {
+    return sensors.of<Params>();
+  }
 };
 
 /// A pose at one instant, as told to the user.
@@ -59,6 +63,7 @@ struct InnovationRecord {
 /// What became of one label's measurements.
 struct SensorUse {
   std::string label;
+  SensorKind kind = SensorKind::kOther;
   uint64_t read = 0, used = 0;
   std::map<std::string, uint64_t> refused;  ///< by reason
   double nis_sum = 0;                       ///< of Correction::nis_single
@@ -74,6 +79,13 @@ struct Expectation {
   double heading_offset_sd = 0;  ///< how well that is known as the robot's [rad]
 };
 
+/// What a localizer is told besides its parameters.
+struct LocalizerSetup {
+  Expectation start;
+  std::vector<SensorKind> sensors;  ///< readings of other kinds are left out; empty: none are
+  bool joins_instants = false;      ///< a fix and a heading of one instant are one measurement (3.14)
+};
+
 /// Feeds a filter from a robot's sensors: motion from odometry (and gyro), measurements at their own times.
 ///
 /// Observations come in any order within `late_window_s`. A measurement that lies between two odometry readings splits
@@ -83,26 +95,22 @@ struct Expectation {
 /// With a position sensor and no initial pose, the start is found from the first stretch of motion (StartAlignment).
 class Localizer {
  public:
-  Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, const Expectation& expect);
+  Localizer(const LocalizerParams& params, std::unique_ptr<PoseFilter> filter, const LocalizerSetup& setup);
+  ~Localizer();
+  Localizer(Localizer&&) noexcept;
 
-  /// A stream of measurements; the number goes with each observation.
-  int addStream(const std::string& label);
-  void odometry(int stream, double time_s, const mrpt::obs::CObservationOdometry& o);
-  void imu(int stream, double time_s, const mrpt::obs::CObservationIMU& o);
-  void gps(int stream, double time_s, const mrpt::obs::CObservationGPS& o);
-  void position(int stream, double time_s, double x, double y);
-  /// What an IMU says, as plain numbers: yaw [rad], yaw rate [rad/s].
-  void heading(int stream, double time_s, double heading_rad);
-  /// A fix and a heading of one instant as one measurement (3.14); once the robot's start is known.
-  void positionHeading(int stream, double time_s, double x, double y, double heading_rad);
-  void yawRate(int stream, double time_s, double rate);
-  void beacons(int stream, double time_s, const mrpt::obs::CObservationBeaconRanges& o);
-  void laser(int stream, double time_s, const mrpt::obs::CObservation2DRangeScan& o);
+  /// The one door for sensors. Readings whose stamps lie within kInstant_s are of one instant: that of the odometry
+  /// among them, else their own; their order does not matter. They are processed once a reading of another instant, or
+  /// `finish`, comes.
+  void observe(const Reading& reading);
+  /// Nothing more of the present instant comes: processes it now.
+  void completeInstant();
   /// No more observations come: what waits is processed.
   void finish();
   /// From now on estimates are held until `finish`, which smooths them by the whole log (Smoother: memory grows with
   /// it); `finish` throws Error if the filter has no smoother. To be called before the first observation.
   void smoothAtEnd() { smoother_.emplace(); }
+  static constexpr double kInstant_s = 2e-5;
 
   /// From now on innovations are kept for `takeInnovations`, and the modes of the filter go with an estimate each
   /// `modes_period_s` (0: never).
@@ -130,10 +138,18 @@ class Localizer {
     double opened = 1;  ///< by how much the correction opened the covariance
     std::vector<double> state_after;
   };
-  void addHeading(int stream, double time_s, double heading_rad);
+  struct Heard {
+    Reading reading;
+    SensorSays says;
+    int stream = 0;
+  };
+  int streamOf(const Reading& reading);
+  void joinInstant();
+  void motion(const Heard& heard);
+  void measurements(Heard& heard);
   void add(const Measurement& m);
   void place(const Measurement& m);
-  void insertLate(const Measurement& m);
+  void insertOutOfSequence(const Measurement& m);
   void advanceTo(double time_s, const MotionStep& step);
   void appendMotion(double time_s, const MotionStep& step);
   void append(Event&& event);
@@ -142,21 +158,25 @@ class Localizer {
   void count(Event& event, const Correction& c);
   void refuse(int stream, const char* reason);
   void coastTo(double time_s);
-  void owe(std::optional<uint64_t> odometry_index);
+  void scheduleEstimate(std::optional<uint64_t> odometry_index);
   void gapNoise(MotionStep& motion) const;
   void addStill(const MotionSource::Step& step, int stream);
-  void giveOut();
+  void emitEstimate();
   void tryStart(bool last_chance);
   void start(const StartBelief& s);
   void trimHistory();
-  void tell(const Event& event);
+  void feedSmoother(const Event& event);
   void smooth();
   SensorUse& use(int stream) { return sensors_[static_cast<size_t>(stream)]; }
 
   LocalizerParams params_;
   std::unique_ptr<PoseFilter> filter_;
   MotionSource motion_;
-  GpsModel gps_;
+  LocalizerSetup setup_;
+  std::map<SensorKind, std::unique_ptr<SensorModel>> models_;
+  std::map<std::pair<SensorKind, std::string>, int> streams_;
+  std::vector<Heard> instant_;  // the first heard_ count: readings of the present instant
+  size_t heard_ = 0;
   StartAlignment start_;
   std::vector<SensorUse> sensors_;
   std::deque<Event> history_;
@@ -173,15 +193,16 @@ class Localizer {
   std::deque<Waiting> waiting_;     // motion before the start is known
   std::vector<double> base_state_;  // state before history_.front()
   std::vector<std::vector<double>> spare_states_;
-  double base_time_s_ = 0, now_s_ = 0, last_heading_s_ = 0;
+  double base_time_s_ = 0, now_s_ = 0;
   std::optional<Smoother> smoother_;
   MotionStep last_motion_;
   mrpt::math::TPose2D odometry_pose_;
   uint64_t odometry_count_ = 0;
   double first_odometry_s_ = 0;
   bool started_ = false;
-  bool owed_ = false;  // an estimate at now_s_ has not been given out yet: measurements of this instant may still come
-  std::optional<uint64_t> owed_index_;
+  bool scheduled_ =
+      false;  // an estimate at now_s_ has not been given out yet: measurements of this instant may still come
+  std::optional<uint64_t> scheduled_index_;
 };
 
 }  // namespace sidestep

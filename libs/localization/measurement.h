@@ -30,10 +30,11 @@ struct Measurement {
   Eigen::Vector3d p_base_sensor = Eigen::Vector3d::Zero();  ///< where the sensor sits on the robot [m]
   Eigen::Vector3d p_map_beacon = Eigen::Vector3d::Zero();   ///< for kRange [m]
   std::shared_ptr<const Scan> scan;                         ///< for kScan
-  double raised =
+  double covariance_inflation =
       1;  ///< by how much R is larger than one measurement's variance, as neighbouring errors are alike; >= 1
   bool heading_has_offset = false;  ///< a filter may estimate the constant offset of the heading
 
+  bool tellsPosition() const { return kind == Kind::kPosition || kind == Kind::kPositionHeading; }
   bool tellsHeading() const { return kind == Kind::kHeading || kind == Kind::kPositionHeading; }
   int size() const { return kind == Kind::kPositionHeading ? 3 : kind == Kind::kPosition ? 2 : 1; }
 };

@@ -3,8 +3,8 @@
 #pragma once
 #include <deque>
 
-#include "localization/odometry_model.h"
-#include "localization/sensor_models.h"
+#include "localization/sensors/imu.h"
+#include "localization/sensors/odometry_model.h"
 
 namespace sidestep {
 

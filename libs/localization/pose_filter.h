@@ -19,7 +19,7 @@ struct Correction {
   Reason reason = Reason::kAccepted;
   double nis = 0;         ///< normalized innovation squared, against the covariance before the correction
   int dof = 0;            ///< its degrees of freedom
-  double nis_single = 0;  ///< NIS with the variance of this measurement by itself (Measurement::raised)
+  double nis_single = 0;  ///< NIS with the variance of this measurement by itself (Measurement::covariance_inflation)
   bool accepted() const { return reason == Reason::kAccepted || reason == Reason::kReset; }
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmark/benchmark.h>
 
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
 #include "localization/localizer.h"
 #include "support/readings.h"
 
@@ -41,23 +41,21 @@ BENCHMARK(BM_EkfPredictCorrect<8>);
 /// 100 s of odometry at 20 Hz with fixes at 5 Hz; items are odometry readings.
 void BM_LocalizerOdometryGps(benchmark::State& state) {
   constexpr int kReadings = 2000;
-  std::vector<mrpt::obs::CObservationOdometry> log;
-  for (int i = 0; i < kReadings; ++i)
-    log.push_back(support::odometryAt(support::kStart_s + 0.05 * i, support::onCircle(1, 0.1, 0.05 * i)));
+  std::vector<Reading> log;
+  for (int i = 0; i < kReadings; ++i) {
+    log.push_back(support::wheelsAt(support::kStart_s + 0.05 * i, support::onCircle(1, 0.1, 0.05 * i)));
+    if (i % 4 != 2) continue;
+    const auto truth = support::onCircle(1, 0.1, 0.05 * i + 0.01);
+    log.push_back(support::positionAt(support::kStart_s + 0.05 * i + 0.01, truth.x, truth.y));
+  }
   LocalizerParams params;
   params.start.pose_given = true;
   Expectation expect;
   expect.positions = true;
   for (auto _ : state) {
-    Localizer localizer(params, makeEkf({}), expect);
-    const int wheels = localizer.addStream("odometry"), gps = localizer.addStream("gps");
-    for (int i = 0; i < kReadings; ++i) {
-      const double t = 0.05 * i;
-      localizer.odometry(wheels, support::kStart_s + t, log[static_cast<size_t>(i)]);
-      if (i % 4 == 2) {
-        const auto truth = support::onCircle(1, 0.1, t + 0.01);
-        localizer.position(gps, support::kStart_s + t + 0.01, truth.x, truth.y);
-      }
+    Localizer localizer(params, makeEkf({}), {expect, {}, false});
+    for (const auto& reading : log) {
+      localizer.observe(reading);
       benchmark::DoNotOptimize(localizer.takeEstimates());
     }
   }

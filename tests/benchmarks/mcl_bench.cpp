@@ -6,7 +6,7 @@
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
-#include "localization/mcl.h"
+#include "localization/filters/mcl.h"
 #include "maps/map_file.h"
 
 namespace sidestep {

@@ -9,7 +9,7 @@
 #include <mrpt/math/wrap2pi.h>
 #include <mrpt/random/RandomGenerators.h>
 
-#include "localization/particle_filter.h"
+#include "localization/filters/particle_filter.h"
 
 namespace sidestep {
 namespace {

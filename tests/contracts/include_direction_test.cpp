@@ -77,7 +77,7 @@ TEST(IncludeDirection, AnArrowDownTheTableIsFound) {
 
 TEST(IncludeDirection, OwnModuleModulesAboveAndOthersLibrariesAreAllowed) {
   EXPECT_EQ(complaints("localization", "localization/a.cpp",
-                       "#include \"localization/ekf.h\"\n#include \"core/params.h\"\n#include <vector>\n"
+                       "#include \"localization/filters/ekf.h\"\n#include \"core/params.h\"\n#include <vector>\n"
                        "#include <mrpt/maps/COccupancyGridMap2D.h>\n// #include \"datasets/x.h\"\n"),
             "");
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Sidestep developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "localization/fast_math.h"
+#include "localization/filters/fast_math.h"
 
 #include <gtest/gtest.h>
 

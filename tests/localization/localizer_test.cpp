@@ -10,7 +10,10 @@
 #include <limits>
 #include <random>
 
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
+#include "localization/pose_filter.h"
+#include "localization/sensors/beacons.h"
+#include "localization/sensors/gps.h"
 #include "support/readings.h"
 
 namespace sidestep {
@@ -23,23 +26,25 @@ constexpr double kDegree = M_PI / 180;
 LocalizerParams fromOrigin() {
   LocalizerParams p;
   p.start.pose_given = true;
-  p.gps.sd_m = 0.5;
+  p.of<GpsParams>().sd_m = 0.5;
   return p;
 }
 
 /// A localizer with one stream of each kind; seconds count from the start of the log.
 struct Robot {
   explicit Robot(const LocalizerParams& params = fromOrigin(), const Expectation& expect = {},
-                 const EkfParams& ekf = {})
-      : filter(makeEkf(ekf)), view(filter.get()), localizer(params, std::move(filter), expect) {}
+                 const EkfParams& ekf = {}, bool joins_instants = false)
+      : filter(makeEkf(ekf)), view(filter.get()), localizer(params, std::move(filter), {expect, {}, joins_instants}) {}
 
-  void wheels(double t, const TPose2D& pose) {
-    localizer.odometry(kWheels, kStart_s + t, support::odometryAt(t, pose));
+  template <class Observation>
+  void tell(SensorKind kind, double t, Observation o) {
+    localizer.observe(support::readingOf(kind, kStart_s + t, std::move(o)));
   }
-  void speeds(double t, double v, double w) { localizer.odometry(kWheels, kStart_s + t, support::velocityAt(t, v, w)); }
-  void fix(double t, double x, double y) { localizer.position(kGps, kStart_s + t, x, y); }
-  void yaw(double t, double angle) { localizer.imu(kImu, kStart_s + t, support::yaw(angle)); }
-  void yawRate(double t, double rate) { localizer.imu(kImu, kStart_s + t, support::yawRate(rate)); }
+  void wheels(double t, const TPose2D& pose) { localizer.observe(support::wheelsAt(kStart_s + t, pose)); }
+  void speeds(double t, double v, double w) { tell(SensorKind::kOdometry, t, support::velocityAt(t, v, w)); }
+  void fix(double t, double x, double y) { localizer.observe(support::positionAt(kStart_s + t, x, y)); }
+  void yaw(double t, double angle) { tell(SensorKind::kImu, t, support::yaw(angle)); }
+  void yawRate(double t, double rate) { tell(SensorKind::kImu, t, support::yawRate(rate)); }
   /// Odometry at 10 Hz along the circle of 10 m, after `from` up to `to` seconds.
   void drive(double from, double to) {
     for (int i = static_cast<int>(std::lround(10 * from)) + 1; i <= std::lround(10 * to); ++i)
@@ -49,14 +54,20 @@ struct Robot {
     localizer.finish();
     return localizer.takeEstimates();
   }
-  const SensorUse& gps() const { return localizer.sensors()[kGps]; }
+  bool started() {
+    localizer.completeInstant();
+    return localizer.started();
+  }
+  const SensorUse& gps() {
+    localizer.completeInstant();
+    for (const auto& s : localizer.sensors())
+      if (s.kind == SensorKind::kGps) return s;
+    throw std::logic_error("no fix was told");
+  }
 
-  static constexpr int kWheels = 0, kGps = 1, kImu = 2, kBeacons = 3;
   std::unique_ptr<PoseFilter> filter;
   PoseFilter* view;  // the localizer's own
   Localizer localizer;
-  const std::vector<int> streams = {localizer.addStream("odometry"), localizer.addStream("gps"),
-                                    localizer.addStream("imu"), localizer.addStream("beacons")};
 };
 
 void expectEqual(const PoseBelief& a, const PoseBelief& b) {
@@ -77,14 +88,15 @@ TEST(Localizer, AFixAndAHeadingOfOneInstantAreTheSameByPartsAndAtOnce) {
   params.start.yaw_sd = 0.2;
   EkfParams ekf;
   ekf.gate = false;
-  Robot parts(params, {}, ekf), at_once(params, {}, ekf);
+  Robot parts(params, {}, ekf), at_once(params, {}, ekf, true);
   for (auto* r : {&parts, &at_once}) {
     r->wheels(0, {});
     r->drive(0, 1);
   }
-  parts.localizer.heading(Robot::kImu, kStart_s + 1, 0.15);
-  parts.fix(1, 1.2, 0.1);
-  at_once.localizer.positionHeading(Robot::kGps, kStart_s + 1, 1.2, 0.1, 0.15);
+  for (auto* r : {&parts, &at_once}) {
+    r->yaw(1, 0.15);
+    r->fix(1, 1.2, 0.1);
+  }
   expectEqual(parts.finish().back().belief, at_once.finish().back().belief);
   EXPECT_EQ(at_once.gps().nis_dof, 3);
 }
@@ -103,7 +115,7 @@ TEST(Localizer, RecordsEachInnovationOnceWhenAskedTo) {
   const auto records = robot.localizer.takeInnovations();
   ASSERT_EQ(records.size(), 2u);
   EXPECT_NEAR(records[0].time_s - kStart_s, 0.75, 1e-6);
-  EXPECT_EQ(records[0].stream, Robot::kGps);
+  EXPECT_EQ(robot.localizer.sensors()[static_cast<size_t>(records[0].stream)].kind, SensorKind::kGps);
   EXPECT_EQ(records[0].dof, 2);
   EXPECT_TRUE(records[0].accepted);
 }
@@ -202,7 +214,7 @@ TEST(Localizer, CountsEachFixOnceHoweverOftenItIsPlayedAgain) {
 TEST(Localizer, PutsDelayedFixesBackWhereTheyBelong) {
   auto endWith = [](double delay) {
     auto params = fromOrigin();
-    params.gps.delay_s = delay;
+    params.of<GpsParams>().delay_s = delay;
     Robot robot(params);
     for (int i = 0; i <= 400; ++i) {
       robot.speeds(0.1 * i, 5, 0);
@@ -237,7 +249,7 @@ TEST(Localizer, GivesOneEstimateAnOdometryReadingInOrder) {
 
 TEST(Localizer, KeepsTheIndexOfReadingsWhenSomeAreRefusedBeforeTheStart) {
   LocalizerParams params;
-  params.gps.sd_m = 0.1;
+  params.of<GpsParams>().sd_m = 0.1;
   Expectation expect;
   expect.positions = true;
   Robot robot(params, expect);
@@ -271,7 +283,7 @@ TEST(Localizer, KeepsTheIndexOfReadingsWhenSomeAreRefusedBeforeTheStart) {
 
 TEST(Localizer, CoastsThroughAGapWithGrowingDoubt) {
   auto params = fromOrigin();
-  params.gps.sd_m = 1000;  // fixes that only make time pass
+  params.of<GpsParams>().sd_m = 1000;  // fixes that only make time pass
   Robot robot(params);
   for (int i = 0; i <= 50; ++i) robot.speeds(0.1 * i, 1, 0);
   for (int t = 7; t <= 20; ++t) robot.fix(t, 0, 0);
@@ -293,7 +305,7 @@ TEST(Localizer, CoastsThroughAGapWithGrowingDoubt) {
 
 TEST(Localizer, DoesNotCountMotionTwiceWhenOdometryReturns) {
   auto params = fromOrigin();
-  params.gps.sd_m = 1000;
+  params.of<GpsParams>().sd_m = 1000;
   Robot robot(params);
   for (int i = 0; i <= 50; ++i) robot.wheels(0.1 * i, {0.1 * i, 0, 0});
   robot.fix(6.1, 6.1, 0);  // over a second without odometry: coasts 1 s of motion
@@ -351,7 +363,7 @@ TEST(Localizer, LearnsTheGyrosBiasWhileTheRobotStands) {
 
 TEST(Localizer, FindsAnUnknownStartHeadingFromFixes) {
   LocalizerParams params;
-  params.gps.sd_m = 0.3;
+  params.of<GpsParams>().sd_m = 0.3;
   Expectation expect;
   expect.positions = true;
   Robot robot(params, expect);
@@ -363,7 +375,7 @@ TEST(Localizer, FindsAnUnknownStartHeadingFromFixes) {
     robot.wheels(d, {d, 0, 0});
     if (i % 5 == 0) robot.fix(d, 7 + c * d + noise(random), -3 + s * d + noise(random));
   }
-  EXPECT_TRUE(robot.localizer.started());
+  EXPECT_TRUE(robot.started());
   const auto last = robot.finish().back().belief.mean;
   // 60 fixes of 0.3 m along 30 m: heading to 0.3 * sqrt(12 / 60) / 30 = 0.3 deg, and what the odometry's doubt adds.
   EXPECT_NEAR(last.phi, 130 * kDegree, 3 * kDegree);
@@ -376,10 +388,10 @@ TEST(Localizer, StartsAtOnceFromTheFirstFixWhenTheImuKnowsTheHeading) {
   expect.positions = expect.heading = true;
   Robot robot({}, expect);
   robot.wheels(0, {0, 0, 0});
-  EXPECT_FALSE(robot.localizer.started());
+  EXPECT_FALSE(robot.started());
   robot.yaw(0, 130 * kDegree);
   robot.fix(0, 7, -3);
-  EXPECT_TRUE(robot.localizer.started());
+  EXPECT_TRUE(robot.started());
   robot.wheels(0.1, {0.1, 0, 0});
   const auto last = robot.finish().back().belief.mean;
   EXPECT_NEAR(last.phi, 130 * kDegree, 1e-6);
@@ -393,7 +405,7 @@ TEST(Localizer, TakesTheImusFrameForTheMapWithoutFixes) {
   robot.wheels(0, {0, 0, 0});
   robot.wheels(0.1, {0.1, 0, 0.2});
   robot.yaw(0.1, 1.2);  // the robot has turned by 0.2 since the start: it began at 1.0
-  EXPECT_TRUE(robot.localizer.started());
+  EXPECT_TRUE(robot.started());
   robot.wheels(0.2, {0.1, 0, 0.2});
   const auto estimates = robot.finish();
   EXPECT_NEAR(estimates.front().belief.mean.phi, 1.0, 1e-9);
@@ -406,7 +418,7 @@ TEST(Localizer, StartsAtTheOriginAtTheEndOfALogWithoutFixes) {
   Robot robot({}, expect);
   robot.wheels(0, {5, 5, 1});
   robot.wheels(1, {5, 5, 2});
-  EXPECT_FALSE(robot.localizer.started());
+  EXPECT_FALSE(robot.started());
   const auto estimates = robot.finish();
   ASSERT_EQ(estimates.size(), 2u);
   EXPECT_EQ(estimates.front().belief.mean, TPose2D(0, 0, 0));
@@ -421,10 +433,10 @@ TEST(Localizer, DoesNotStartFromFixesOrHeadingsThatAreNotFinite) {
     robot.wheels(0, {0, 0, 0});
     robot.yaw(0, bad);
     robot.fix(0, bad, 0);
-    EXPECT_FALSE(robot.localizer.started());
+    EXPECT_FALSE(robot.started());
     robot.yaw(0.1, 0.5);
     robot.fix(0.1, 7, -3);
-    EXPECT_TRUE(robot.localizer.started());
+    EXPECT_TRUE(robot.started());
     robot.wheels(0.2, {0, 0, 0});
     const auto last = robot.finish().back().belief;
     EXPECT_NEAR(last.mean.x, 7, 1e-9);
@@ -467,7 +479,7 @@ void feedGarbage(Robot& robot, double t, std::mt19937_64& random) {
     case 2:
       return robot.fix(t, g(), g());
     case 3:
-      return robot.localizer.gps(Robot::kGps, kStart_s + t, support::fixAt(g(), g(), g()));
+      return robot.tell(SensorKind::kGps, t, support::fixAt(g(), g(), g()));
     case 4:
       return robot.yaw(t, g());
     case 5:
@@ -476,14 +488,14 @@ void feedGarbage(Robot& robot, double t, std::mt19937_64& random) {
       ranges.sensedData.resize(1);
       ranges.sensedData[0].beaconID = 1;
       ranges.sensedData[0].sensedDistance = static_cast<float>(std::clamp(g(), -1e38, 1e38));
-      return robot.localizer.beacons(Robot::kBeacons, kStart_s + t, ranges);
+      return robot.tell(SensorKind::kBeacons, t, ranges);
   }
 }
 
 void expectFiniteWhenFedGarbage(uint64_t seed, bool pose_given, const EkfParams& ekf) {
   LocalizerParams params;
   params.start.pose_given = pose_given;
-  params.beacons.beacons = {{1, 3, 4, 2}};
+  params.of<BeaconParams>().beacons = {{1, 3, 4, 2}};
   Expectation expect;
   expect.positions = expect.heading = true;
   Robot robot(params, expect, ekf);
@@ -497,7 +509,7 @@ void expectFiniteWhenFedGarbage(uint64_t seed, bool pose_given, const EkfParams&
     }
   }
   for (const auto& e : robot.finish()) ASSERT_TRUE(finite(e.belief));
-  EXPECT_TRUE(robot.localizer.started());
+  EXPECT_TRUE(robot.started());
 }
 
 TEST(Localizer, StaysFiniteWhateverItIsFed) {

@@ -8,9 +8,9 @@
 #include <random>
 
 #include "core/errors.h"
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
+#include "localization/filters/particle_filter.h"
 #include "localization/localizer.h"
-#include "localization/particle_filter.h"
 #include "support/measurements.h"
 #include "support/readings.h"
 
@@ -162,20 +162,18 @@ std::vector<Estimate> smoothedCircle(double late_s) {
   params.start.pose_given = true;
   Localizer localizer(params, makeEkf(plain()), {});
   localizer.smoothAtEnd();
-  const int wheels = localizer.addStream("odometry"), gps = localizer.addStream("gps");
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0, 0.5);
   std::vector<std::tuple<double, double, double>> waiting;
   for (int i = 0; i < 600; ++i) {
     const double t = 0.1 * i;
-    localizer.odometry(wheels, support::kStart_s + t,
-                       support::odometryAt(support::kStart_s + t, support::onCircle(1.03, 0.1, t)));
+    localizer.observe(support::wheelsAt(support::kStart_s + t, support::onCircle(1.03, 0.1, t)));
     EXPECT_TRUE(localizer.takeEstimates().empty());
     const auto p = support::onCircle(1, 0.1, t + 0.03);
     if (i % 10 == 5) waiting.push_back({t + 0.03, p.x + noise(random), p.y + noise(random)});
     while (!waiting.empty() && std::get<0>(waiting.front()) + late_s < t + 0.1) {
       const auto [when, x, y] = waiting.front();
-      localizer.position(gps, support::kStart_s + when, x, y);
+      localizer.observe(support::positionAt(support::kStart_s + when, x, y));
       waiting.erase(waiting.begin());
     }
   }

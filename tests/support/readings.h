@@ -5,9 +5,13 @@
 #include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
+
+#include "core/reading.h"
 
 /// Observations and exact paths for the tests of localization.
 namespace sidestep::support {
@@ -55,6 +59,25 @@ inline mrpt::obs::CObservationGPS fixAt(double latitude_deg, double longitude_de
   mrpt::obs::CObservationGPS o;
   o.setMsg(gga);
   return o;
+}
+
+/// What a log gives of an observation: labelled by its kind's word.
+template <class Observation>
+Reading readingOf(SensorKind kind, double time_s, Observation o) {
+  o.timestamp = mrpt::Clock::fromDouble(time_s);
+  o.sensorLabel = word(kind);
+  return {time_s, kind, word(kind), std::make_shared<Observation>(std::move(o))};
+}
+
+inline Reading wheelsAt(double time_s, const mrpt::math::TPose2D& pose) {
+  return readingOf(SensorKind::kOdometry, time_s, odometryAt(time_s, pose));
+}
+
+/// A metric fix.
+inline Reading positionAt(double time_s, double x, double y) {
+  mrpt::obs::CObservationRobotPose o;
+  o.pose.mean.setFromValues(x, y, 0, 0, 0, 0);
+  return readingOf(SensorKind::kGps, time_s, std::move(o));
 }
 
 }  // namespace sidestep::support

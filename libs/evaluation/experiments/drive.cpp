@@ -3,6 +3,7 @@
 #include "evaluation/experiments/drive.h"
 
 #include <mrpt/core/Clock.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/poses/CPose2D.h>
@@ -10,12 +11,12 @@
 #include <algorithm>
 
 #include "core/errors.h"
+#include "datasets/kind_rules.h"
 #include "datasets/log_reader.h"
+#include "simulation/epoch.h"
 
 namespace sidestep {
 namespace {
-
-constexpr double kEpoch_s = 1e9;  // simulated time 0; stamps must be > 0
 
 /// Takes what is ready and lays it beside the truth, a pose an odometry reading.
 class SimulatedPairs {
@@ -38,13 +39,14 @@ class SimulatedPairs {
   DriveResult& out_;
 };
 
-/// Sums over the streams of a kind; `kind_of` names the kind of a label.
-template <class KindOf>
-void takeNis(const Localizer& localizer, const LocalizeConfig& config, const KindOf& kind_of, DriveResult& out) {
+/// Sums over the streams of a kind.
+void takeUse(Localizer& localizer, const LocalizeConfig& config, DriveResult& out) {
   out.gate_probability = config.gateProbability();
-  for (const auto& s : localizer.sensors()) {
+  out.sensors = localizer.sensors();
+  out.fixes = localizer.takeFixes();
+  for (const auto& s : out.sensors) {
     if (s.nis_count == 0) continue;
-    const std::string kind = kind_of(s.label);
+    const std::string kind = word(s.kind);
     auto it = std::find_if(out.nis.begin(), out.nis.end(), [&](const auto& k) { return k.kind == kind; });
     if (it == out.nis.end()) it = out.nis.insert(it, {kind, 0, 0, 0, s.nis_dof});
     it->sum += s.nis_sum;
@@ -52,6 +54,53 @@ void takeNis(const Localizer& localizer, const LocalizeConfig& config, const Kin
     it->independent += s.nis_independent;
   }
 }
+
+/// A step of a simulated drive as readings. Their observations are used in turn: the localizer holds those of the step
+/// before.
+class SimulatedReadings {
+ public:
+  SimulatedReadings() {
+    for (size_t i = 0; i < 2; ++i) {
+      wheels_[i] = {0, SensorKind::kOdometry, "odometry", std::make_shared<mrpt::obs::CObservationOdometry>()};
+      imu_[i] = {0, SensorKind::kImu, "imu", std::make_shared<mrpt::obs::CObservationIMU>()};
+      fix_[i] = {0, SensorKind::kGps, "gps", std::make_shared<mrpt::obs::CObservationRobotPose>()};
+    }
+  }
+  void observe(const SensorStep& step, const SignalLoss& loss, Localizer& localizer) {
+    const bool lost = loss.any() && loss.covers(step.time_s);
+    turn_ = 1 - turn_;
+    if (step.imu && !(lost && loss.theta)) localizer.observe(imu(step));
+    localizer.observe(wheels(step));
+    if (step.gps && !(lost && loss.xy)) localizer.observe(fix(step));
+  }
+
+ private:
+  template <class Observation>
+  static Observation& at(Reading& reading, double time_s) {
+    reading.time_s = kSimulationStart_s + time_s;
+    return static_cast<Observation&>(*reading.observation);
+  }
+  const Reading& imu(const SensorStep& step) {
+    auto& o = at<mrpt::obs::CObservationIMU>(imu_[turn_], step.time_s);
+    o.dataIsPresent.fill(false);
+    if (step.imu->has_yaw) o.set(mrpt::obs::IMU_YAW, step.imu->yaw);
+    o.set(mrpt::obs::IMU_WZ, step.imu->yaw_rate);
+    return imu_[turn_];
+  }
+  const Reading& wheels(const SensorStep& step) {
+    at<mrpt::obs::CObservationOdometry>(wheels_[turn_], step.time_s).odometry =
+        mrpt::poses::CPose2D(step.odometry.pose);
+    return wheels_[turn_];
+  }
+  const Reading& fix(const SensorStep& step) {
+    at<mrpt::obs::CObservationRobotPose>(fix_[turn_], step.time_s)
+        .pose.mean.setFromValues(step.gps->x, step.gps->y, 0, 0, 0, 0);
+    return fix_[turn_];
+  }
+
+  Reading wheels_[2], imu_[2], fix_[2];
+  size_t turn_ = 0;
+};
 
 bool isLost(const Reading& e, double time_s, const SignalLoss& loss) {
   if (!loss.any() || !loss.covers(time_s)) return false;
@@ -61,54 +110,34 @@ bool isLost(const Reading& e, double time_s, const SignalLoss& loss) {
 
 }  // namespace
 
-mrpt::math::TPose2D truthInMap(const LocalizeConfig& config, const mrpt::math::TPose2D& truth) {
-  if (!config.truth_frame_given) return truth;
-  const mrpt::poses::CPose2D T_map_truth(config.truth_x_m, config.truth_y_m, config.truth_yaw);
-  return (T_map_truth + mrpt::poses::CPose2D(truth)).asTPose();
-}
-
 DriveResult localizeSimulated(const LocalizationScenario& scenario, const LocalizeConfig& config,
                               const SignalLoss& loss, uint64_t world_seed, uint64_t filter_seed) {
-  Localizer localizer(config.robot, makeFilter(config, filter_seed), config.expectation());
-  if (config.smooth) localizer.smoothAtEnd();
-  const int odometry = localizer.addStream("odometry"), imu = localizer.addStream("imu"),
-            gps = localizer.addStream("gps");
-  const bool use_imu = config.uses("imu"), use_heading = use_imu && config.robot.imu.heading != "off",
-             use_rate = use_imu && config.robot.imu.yaw_rate != "off", use_gps = config.uses("gps");
-  // EN of algorithm 3 is one number for all that is measured at an instant; to a Gaussian it is the same by parts.
-  const bool as_one = config.filter == "pf" && config.pf.likelihood == "printed";
+  Localizer localizer = makeLocalizer(config, filter_seed);
   DriveResult out;
-  out.gave_fixes = use_gps;
   SimulatedPairs pairs(scenario.truth(), out);
   SensorStream stream = scenario.run(world_seed);
-  mrpt::obs::CObservationOdometry reading;
+  SimulatedReadings readings;
   SensorStep step;
   while (stream.next(step)) {
-    const double now = kEpoch_s + step.time_s;
-    const bool lost = loss.any() && loss.covers(step.time_s);
-    if (step.imu && use_rate && !(lost && loss.theta)) localizer.yawRate(imu, now, step.imu->yaw_rate);
-    reading.odometry = mrpt::poses::CPose2D(step.odometry.pose);
-    localizer.odometry(odometry, now, reading);
-    const bool heading = step.imu && step.imu->has_yaw && use_heading && !(lost && loss.theta);
-    const bool fix = step.gps && use_gps && !(lost && loss.xy);
-    if (as_one && heading && fix && localizer.started()) {
-      localizer.positionHeading(gps, now, step.gps->x, step.gps->y, step.imu->yaw);
-    } else {
-      if (heading) localizer.heading(imu, now, step.imu->yaw);
-      if (fix) localizer.position(gps, now, step.gps->x, step.gps->y);
-    }
+    readings.observe(step, loss, localizer);
     pairs.take(localizer);
   }
   localizer.finish();
   pairs.take(localizer);
-  out.fixes = localizer.takeFixes();
-  takeNis(
-      localizer, config, [](const std::string& label) { return label; }, out);
+  takeUse(localizer, config, out);
+  return out;
+}
+
+std::vector<SensorKind> kindsUsedBy(const std::vector<LocalizeConfig>& configs) {
+  std::vector<SensorKind> out;
+  for (const auto& config : configs)
+    for (const auto kind : config.usedKinds())
+      if (std::find(out.begin(), out.end(), kind) == out.end()) out.push_back(kind);
   return out;
 }
 
 RecordedDrive readDrive(const std::string& log, const std::string& truth_file, const std::vector<std::string>& labels,
-                        bool scans) {
+                        const std::vector<SensorKind>& keeps) {
   RecordedDrive drive;
   drive.file = log;
   LogReaderOptions options;
@@ -121,8 +150,7 @@ RecordedDrive readDrive(const std::string& log, const std::string& truth_file, c
     if (e->kind == SensorKind::kGroundTruth && truth_file.empty()) {
       if (const auto* p = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(e->observation.get()))
         drive.truth.push_back({e->time_s, {p->pose.mean.x(), p->pose.mean.y(), p->pose.mean.yaw()}, true});
-    } else if (e->kind == SensorKind::kOdometry || e->kind == SensorKind::kImu || e->kind == SensorKind::kGps ||
-               e->kind == SensorKind::kBeacons || (scans && e->kind == SensorKind::kLaser)) {
+    } else if (std::find(keeps.begin(), keeps.end(), e->kind) != keeps.end()) {
       drive.entries.push_back(std::move(*e));
     }
   }
@@ -146,9 +174,7 @@ RecordedDrive readDrive(const std::string& log, const std::string& truth_file, c
 
 DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& config, const SignalLoss& loss,
                              uint64_t filter_seed) {
-  Localizer localizer(config.robot, makeFilter(config, filter_seed), config.expectation());
-  if (config.smooth) localizer.smoothAtEnd();
-  LocalizationFeed feed(config, localizer);
+  Localizer localizer = makeLocalizer(config, filter_seed);
   GroundTruth truth;
   auto next_truth = drive.truth.begin();
   DriveResult out;
@@ -160,21 +186,19 @@ DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& c
       const auto t = truth.at(e.time_s);
       if (!t) continue;
       out.pairs.push_back(
-          {e.time_s - drive.start_s, e.belief.mean, truthInMap(config, t->pose), e.belief.covariance, t->has_heading});
+          {e.time_s - drive.start_s, e.belief.mean, config.truthInMap(t->pose), e.belief.covariance, t->has_heading});
       out.odometry.push_back(e.odometry);
     }
   };
   for (const auto& e : drive.entries) {
     if (isLost(e, e.time_s - drive.start_s, loss)) continue;
-    feed.feed(e);
+    localizer.observe(e);
     take();
   }
   localizer.finish();
   take();
-  out.fixes = localizer.takeFixes();
-  out.gave_fixes = config.uses("gps") && !out.fixes.empty();
-  takeNis(
-      localizer, config, [&](const std::string& label) { return word(feed.kinds().at(label)); }, out);
+  takeUse(localizer, config, out);
+  requireSensors(config, out.sensors, drive.file);
   return out;
 }
 

@@ -23,7 +23,7 @@ struct SignalLoss {
 
 /// NIS of all measurements of one kind that were accepted.
 struct KindNis {
-  std::string kind;  ///< "gps", "imu", "beacons"
+  std::string kind;  ///< a sensor's word: "gps", "imu", ...
   double sum = 0;
   double count = 0, independent = 0;
   int dof = 0;
@@ -34,8 +34,8 @@ struct DriveResult {
   std::vector<PosePair> pairs;                ///< time from the start of the drive [s], in the order of time
   std::vector<mrpt::math::TPose2D> odometry;  ///< beside each pair, from the same start
   std::vector<mrpt::math::TPoint2D> fixes;
-  bool gave_fixes = false;  ///< a sensor of positions was used
-  bool aligned = false;     ///< laid onto the truth: NEES judges nothing
+  std::vector<SensorUse> sensors;  ///< what became of the readings
+  bool aligned = false;            ///< laid onto the truth: NEES judges nothing
   std::vector<KindNis> nis;
   std::optional<double> gate_probability;  ///< LocalizeConfig::gateProbability
 };
@@ -52,17 +52,17 @@ struct RecordedDrive {
   double start_s = 0, duration_s = 0;
 };
 
+/// The kinds of readings that any of the configurations uses.
+std::vector<SensorKind> kindsUsedBy(const std::vector<LocalizeConfig>& configs);
+
 /// @param truth_file  empty: the log's own truth
-/// @param scans       keep the laser's scans too
+/// @param keeps  the kinds of readings that are kept, besides the truth
 /// @throws DatasetError if the log or its truth cannot be read whole.
 RecordedDrive readDrive(const std::string& log, const std::string& truth_file, const std::vector<std::string>& labels,
-                        bool scans = false);
+                        const std::vector<SensorKind>& keeps);
 
 /// Localizes a recorded drive; pairs are where there is truth.
 DriveResult localizeRecorded(const RecordedDrive& drive, const LocalizeConfig& config, const SignalLoss& loss,
                              uint64_t filter_seed);
-
-/// A true pose in the map's frame, as the configuration places the truth's.
-mrpt::math::TPose2D truthInMap(const LocalizeConfig& config, const mrpt::math::TPose2D& truth);
 
 }  // namespace sidestep

@@ -82,9 +82,9 @@ void LaserRunner::load(LaserScenario& s, const std::string& where) const {
     return;
   }
   const auto truth = s.ground_truth.empty() ? "" : found(s.ground_truth, where + ".ground_truth");
-  auto drive = readDrive(found(s.log, where + ".log"), truth, s.labels, true);
+  auto drive = readDrive(found(s.log, where + ".log"), truth, s.labels, kindsUsedBy(s.configs));
   if (!s.configs.empty())
-    for (auto& p : drive.truth) p.pose = truthInMap(s.configs[0], p.pose);
+    for (auto& p : drive.truth) p.pose = s.configs[0].truthInMap(p.pose);
   s.recorded = std::make_shared<const RecordedDrive>(std::move(drive));
 }
 
@@ -106,7 +106,6 @@ void LaserRunner::prepare(const std::vector<std::string>& scenarios, const std::
       if (!s.robot.empty()) readYaml(resolvedPath(s.robot, file_), fields);
       readYamlText(s.config, file_, fields);
       readYamlText(algorithms_[a], file_, fields);
-      if (config.filter == "odometry") config.sensors = {"odometry"};
       config.check(file_ + ": algorithms." + algorithms[a] + ".set.sensors");
       s.configs.push_back(config);
     }

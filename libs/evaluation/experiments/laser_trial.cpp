@@ -131,8 +131,7 @@ std::vector<LaserSample> localizeTrial(const LaserTrial& trial, const LocalizeCo
     config.robot.start.y_m = trial.start->y;
     config.robot.start.yaw = trial.start->phi;
   }
-  Localizer localizer(config.robot, makeFilter(config, filter_seed), config.expectation());
-  LocalizationFeed feed(config, localizer);
+  Localizer localizer = makeLocalizer(config, filter_seed);
   std::vector<LaserSample> out;
   auto truth = trial.drive.truth.begin();
   std::optional<Estimate> before;
@@ -154,7 +153,7 @@ std::vector<LaserSample> localizeTrial(const LaserTrial& trial, const LocalizeCo
     }
   };
   for (const auto& e : trial.drive.entries) {
-    feed.feed(e);
+    localizer.observe(e);
     take();
   }
   localizer.finish();

@@ -82,7 +82,8 @@ class LocalizationRunner final : public StudyRunner {
   bool draw(const StudyPlace& place, const std::string& title, const std::string& png_file) const override;
 
  private:
-  void load(ScenarioEntry& s, const std::string& where, bool load_data) const;
+  void loadLog(ScenarioEntry& s, const std::string& where) const;
+  void loadScenario(ScenarioEntry& s, const std::string& where) const;
   LocalizeConfig baseConfig(const ScenarioEntry& s) const;
   DriveResult localize(const StudyPlace& place, const SignalLoss& loss) const;
   SignalLoss lossOf(const StudyPlace& place) const;
@@ -97,19 +98,20 @@ class LocalizationRunner final : public StudyRunner {
   std::vector<std::string> algorithms_;
 };
 
-void LocalizationRunner::load(ScenarioEntry& s, const std::string& where, bool load_data) const {
+/// Of what the log holds, what any algorithm uses.
+void LocalizationRunner::loadLog(ScenarioEntry& s, const std::string& where) const {
+  const auto log = resolvedPath(s.log, file_);
+  if (!std::filesystem::exists(log))
+    throw DatasetError::missing(where + ".log: " + log +
+                                " is not there; get the data, or leave the scenario out with --scenarios");
+  s.recorded = std::make_shared<const RecordedDrive>(readDrive(
+      log, s.ground_truth.empty() ? "" : resolvedPath(s.ground_truth, file_), s.labels, kindsUsedBy(s.configs)));
+}
+
+void LocalizationRunner::loadScenario(ScenarioEntry& s, const std::string& where) const {
   if (!s.log.empty() && !(s.file.empty() && isBlank(s.set)))
     throw ConfigError(where + ": is either simulated (file, set) or recorded (log)");
-  if (!s.log.empty() && !load_data) return;
-  if (!s.log.empty()) {
-    const auto log = resolvedPath(s.log, file_);
-    if (!std::filesystem::exists(log))
-      throw DatasetError::missing(where + ".log: " + log +
-                                  " is not there; get the data, or leave the scenario out with --scenarios");
-    s.recorded = std::make_shared<const RecordedDrive>(
-        readDrive(log, s.ground_truth.empty() ? "" : resolvedPath(s.ground_truth, file_), s.labels));
-    return;
-  }
+  if (!s.log.empty()) return;
   LocalizationScenarioParams params;
   std::string kind = "localization";
   int seed = 1;  // of the file; a study has its own
@@ -157,7 +159,7 @@ void LocalizationRunner::prepare(const std::vector<std::string>& scenarios, cons
     auto& s = scenarios_[i];
     if (scenarios[i].empty()) continue;  // left out
     const std::string where = file_ + ": scenarios." + scenarios[i];
-    load(s, where, load_data);
+    loadScenario(s, where);
     if (!axes[i].empty() && s.interruption.loses == "none")
       throw ConfigError(where + ".outage.loses: = none, but the axis outage_s needs something that is lost");
     LocalizeConfig base = baseConfig(s);
@@ -166,10 +168,10 @@ void LocalizationRunner::prepare(const std::vector<std::string>& scenarios, cons
     for (size_t a = 0; a < algorithms_.size(); ++a) {
       LocalizeConfig config = base;
       readYamlText(algorithms_[a], file_, [&](ParamVisitor& v) { config.visit(v); });
-      if (config.filter == "odometry") config.sensors = {"odometry"};
       config.check(file_ + ": algorithms." + algorithms[a] + ".set.sensors");
       s.configs.push_back(config);
     }
+    if (!s.log.empty() && load_data) loadLog(s, where);
   }
 }
 
@@ -218,7 +220,7 @@ std::shared_ptr<const DriveErrors> LocalizationRunner::twinOf(const StudyPlace& 
 
 std::vector<double> LocalizationRunner::run(const StudyPlace& place) const {
   const SignalLoss loss = lossOf(place);
-  if (loss.any() && scenarios_[place.scenario].configs[place.algorithm].filter == "odometry") {
+  if (loss.any() && scenarios_[place.scenario].configs[place.algorithm].row().odometry_only) {
     DriveResult reckoned = localize(place, loss);
     layOntoTruthAt(loss.from_s, reckoned);
     return valuesOf(driveMetrics(), measureDrive(reckoned, {}, loss, 0));

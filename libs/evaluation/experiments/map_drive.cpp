@@ -13,6 +13,7 @@
 #include "core/errors.h"
 #include "core/kinematics.h"
 #include "planning/global/global_planners.h"
+#include "simulation/epoch.h"
 #include "simulation/map_walls.h"
 
 namespace sidestep {
@@ -20,7 +21,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kStep_s = 0.1, kEpoch_s = 1e9;  // stamps must be > 0
+constexpr double kStep_s = 0.1;
 constexpr int kMostPlans = 1000;
 
 /// Numbers of the cells of the largest piece of free space.
@@ -159,11 +160,11 @@ RecordedDrive driveOnMap(const GridMap& map, const MapDriveParams& params, uint6
   }
   RecordedDrive out;
   out.file = "drive";
-  out.start_s = kEpoch_s;
+  out.start_s = kSimulationStart_s;
   out.duration_s = params.duration_s;
   TPose2D odometry;
   for (int k = 0; k * kStep_s <= params.duration_s; ++k) {
-    const double time_s = kEpoch_s + k * kStep_s;
+    const double time_s = kSimulationStart_s + k * kStep_s;
     if (k > 0) {
       const auto move = itinerary.next();
       const auto read = encoders.step(kStep_s, move.distance_m, move.turn_rad);

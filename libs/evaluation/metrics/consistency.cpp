@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
 
 namespace sidestep {
 namespace {

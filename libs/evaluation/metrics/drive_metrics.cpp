@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "evaluation/metrics/alignment.h"
 #include "evaluation/metrics/consistency.h"
 #include "evaluation/metrics/normalized_errors.h"
 
@@ -198,14 +199,7 @@ void layOntoTruthAt(double time_s, DriveResult& result) {
 }
 
 void align(DriveResult& result, const LocalizeConfig& config) {
-  Alignment how = Alignment::kNone;
-  if (config.align == "first") how = Alignment::kFirstPose;
-  if (config.align == "se2") how = Alignment::kLeastSquares;
-  if (config.align == "auto") {
-    const bool beacons = config.uses("beacons");
-    const bool known = (result.gave_fixes && config.robot.gps.datum_given) || (beacons && config.truth_frame_given);
-    if (!known) how = result.gave_fixes || beacons ? Alignment::kLeastSquares : Alignment::kFirstPose;
-  }
+  const Alignment how = alignmentFor(config, result.sensors);
   if (how == Alignment::kNone || result.pairs.empty()) return;
   result.aligned = true;
   TrajectoryErrorMeter meter;

@@ -39,16 +39,10 @@ void TruthComparison::settle(bool all) {
   }
 }
 
-mrpt::math::TPose2D TruthComparison::inMap(const mrpt::math::TPose2D& truth) const {
-  if (!config_.truth_frame_given) return truth;
-  const mrpt::poses::CPose2D T_map_truth(config_.truth_x_m, config_.truth_y_m, config_.truth_yaw);
-  return (T_map_truth + mrpt::poses::CPose2D(truth)).asTPose();
-}
-
 void TruthComparison::compare(const Estimate& e, const StampedPose& truth) {
   PosePair pair;
   pair.time_s = e.time_s;
-  pair.truth = inMap(truth.pose);
+  pair.truth = config_.truthInMap(truth.pose);
   pair.has_heading = truth.has_heading;
   pair.estimate = e.belief.mean;
   pair.covariance = e.belief.covariance;

@@ -32,7 +32,6 @@ class TruthComparison {
  private:
   void settle(bool all);
   void compare(const Estimate& e, const StampedPose& truth);
-  mrpt::math::TPose2D inMap(const mrpt::math::TPose2D& truth) const;
 
   const LocalizeConfig& config_;
   std::unique_ptr<GroundTruth> truth_;

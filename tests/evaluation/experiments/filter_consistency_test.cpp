@@ -9,7 +9,11 @@
 #include "core/random.h"
 #include "evaluation/experiments/drive.h"
 #include "evaluation/metrics/drive_metrics.h"
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
+#include "localization/filters/particle_filter.h"
+#include "localization/sensors/gps.h"
+#include "localization/sensors/imu.h"
+#include "localization/sensors/odometry.h"
 
 namespace sidestep {
 namespace {
@@ -43,11 +47,12 @@ LocalizeConfig matched(const LocalizationScenario& drive, const std::string& fil
   r.start.yaw = drive.params().trajectory.yaw;
   r.start.position_sd_m = 0.01;
   r.start.yaw_sd = 0.01;
-  r.odometry.noise = {.a1 = 0.2, .a2 = 0, .a3 = 0, .a4 = 0, .a5 = 0, .a6 = 0, .noise_period_s = 0, .turn_floor = 0.4};
-  r.imu.yaw_rate = "off";
-  r.imu.heading_sd = 0.1;
-  r.gps.sd_m = 0.5;
-  c.ekf.heading_offset_sd = c.pf.heading_offset_sd = 0;
+  r.of<OdometryParams>().noise = {
+      .a1 = 0.2, .a2 = 0, .a3 = 0, .a4 = 0, .a5 = 0, .a6 = 0, .noise_period_s = 0, .turn_floor = 0.4};
+  r.of<ImuParams>().yaw_rate = "off";
+  r.of<ImuParams>().heading_sd = 0.1;
+  r.of<GpsParams>().sd_m = 0.5;
+  c.filters.of<EkfParams>().heading_offset_sd = c.filters.of<PfParams>().heading_offset_sd = 0;
   return c;
 }
 
@@ -108,7 +113,7 @@ TEST(FilterConsistency, ASensorThatIsThreeTimesWrongIsNamedAndNoOther) {
   for (const char* filter : {"ekf", "pf"}) {
     for (const bool too_small : {true, false}) {
       auto config = matched(drive, filter);
-      config.robot.gps.sd_m = too_small ? 0.5 / 3 : 0.5 * 3;
+      config.robot.of<GpsParams>().sd_m = too_small ? 0.5 / 3 : 0.5 * 3;
       std::string gps, imu;
       const double factor = factorOf(drive, config, "gps", &gps), other = factorOf(drive, config, "imu", &imu);
       EXPECT_EQ(gps, too_small ? "over-confident" : "too cautious") << filter;

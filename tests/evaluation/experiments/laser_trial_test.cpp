@@ -11,6 +11,8 @@
 
 #include "core/errors.h"
 #include "evaluation/experiments/map_drive.h"
+#include "localization/filters/scan_model.h"
+#include "localization/sensors/scan.h"
 #include "support/room.h"
 #include "support/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "localization/ekf.h"
+#include "localization/filters/ekf.h"
 
 namespace sidestep {
 namespace {
