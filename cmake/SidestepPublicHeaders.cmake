@@ -10,9 +10,8 @@ set(public_headers
   planning/local_planner.h planning/planners.h planning/global/global_planner.h planning/global/global_planners.h
   planning/global/planning_grid.h
   # what those include
-  core/random.h
-  localization/ekf.h localization/mcl.h localization/measurement.h localization/motion.h
-  localization/motion_source.h localization/odometry_model.h localization/particle_cloud.h
-  localization/particle_filter.h localization/patience.h localization/resampling.h localization/rivals.h
-  localization/scan.h localization/scan_model.h localization/sensor_models.h localization/start_alignment.h
+  core/param_sections.h
+  localization/filters/filters.h localization/measurement.h localization/motion.h localization/motion_source.h
+  localization/sensors/imu.h localization/sensors/odometry_model.h localization/sensors/sensor_model.h
+  localization/sensors/sensors.h localization/start_alignment.h
   planning/global/bucket_queue.h planning/global/grid_search.h planning/global/sampling_planner.h)
