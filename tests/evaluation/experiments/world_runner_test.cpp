@@ -177,10 +177,16 @@ TEST(WorldRunner, ErrorsSayWhichEntry) {
 TEST(WorldScenario, AnOverlayKeepsWhomItDoesNotName) {
   WorldScenario s;
   s.layOver("robots: {a: {x_m: 1}, b: {x_m: 2}}", "base");
-  s.layOver("robots: {b: {y_m: 5}, c: {}}", "over");
-  EXPECT_EQ(s.world.robot_names, (std::vector<std::string>{"a", "b", "c"}));
+  s.layOver("robots: {b: {y_m: 5}, another: {x_m: 3}}", "over");
+  EXPECT_EQ(s.world.robot_names, (std::vector<std::string>{"a", "b", "another"}));
   EXPECT_EQ(s.world.robots["b"].x_m, 2);
   EXPECT_EQ(s.world.robots["b"].y_m, 5);
+}
+
+TEST(WorldScenario, ANameThatIsNearAKnownOneIsMisspeltAndNoNewRobot) {
+  WorldScenario s;
+  s.layOver("robots: {leader: {x_m: 1}, follower: {x_m: 2}}", "base");
+  EXPECT_THROW(s.layOver("robots: {folower: {y_m: 5}}", "over"), ConfigError);
 }
 
 }  // namespace
