@@ -205,7 +205,7 @@ TEST(Simulate, ExplainsWhyThePlannerDidWhatItDid) {
   writeFile(folder / "s.yaml", kShort);
   run = runShell("sidestep-simulate s.yaml --explain -o no", folder.path());
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_NE(run.err.find("--explain: the first robot is driven by straight, which is no local planner"),
+  EXPECT_NE(run.err.find("--explain: the planner of the robot under test is straight, which is no local planner"),
             std::string::npos)
       << run.err;
 }
