@@ -7,12 +7,12 @@ TESTS ?=
 DATASETS := /usr/share/mrpt/datasets
 DEMO_OUT ?= build/demo
 
-.PHONY: help packages configure build demo test bench fuzz gate install clean
+.PHONY: help packages configure build demo test bench fuzz fuzz-bands gate install clean
 help:
 	@echo "make demo     localize a real log (from mrpt-common): a table here, a picture in $(DEMO_OUT)"
 	@echo "make test     build everything and run all tests; TESTS='core maps' for these folders of tests/ alone"
 	@echo "make bench    measure speed (Google Benchmark)"
-	@echo "make fuzz     broken logs into the reader for 60 s and random problems into the bands, under asan"
+	@echo "make fuzz     broken logs into the reader for 60 s under asan; fuzz-bands: random problems into the bands"
 	@echo "make gate     all that must hold before a release: tests, fuzzers, sanitizers, clang, clang-tidy (hours)"
 	@echo "make build    build only, into build/$(PRESET); PRESET=dev, asan, tsan, tidy for other builds"
 	@echo "make install  install (PREFIX=/usr/local)"
@@ -51,8 +51,12 @@ bench: build
 
 fuzz: packages
 	@$(MAKE) --no-print-directory configure PRESET=asan
-	@cmake --build --preset asan --target fuzz_rawlog_reader fuzz_band_planner
+	@cmake --build --preset asan --target fuzz_rawlog_reader
 	@build/asan/bin/fuzz_rawlog_reader tests/data --seconds 60
+
+fuzz-bands: packages
+	@$(MAKE) --no-print-directory configure PRESET=asan
+	@cmake --build --preset asan --target fuzz_band_planner
 	@build/asan/bin/fuzz_band_planner --problems 2000
 
 # Tests with threads go under tsan, all under asan; clang reads everything with its own warnings and clang-tidy's.
@@ -61,6 +65,7 @@ gate:
 	@$(MAKE) --no-print-directory packages PACKAGES="packages.txt packages.gate.txt"
 	@$(MAKE) --no-print-directory test
 	@$(MAKE) --no-print-directory fuzz
+	@$(MAKE) --no-print-directory fuzz-bands
 	@$(MAKE) --no-print-directory test PRESET=asan
 	@$(MAKE) --no-print-directory test PRESET=tsan TESTS="$(THREADED)"
 	@$(MAKE) --no-print-directory build PRESET=tidy
